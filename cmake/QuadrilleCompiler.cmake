@@ -1,0 +1,22 @@
+# What every target of the project is compiled with.
+add_library(quadrille_compiler INTERFACE)
+target_compile_features(quadrille_compiler INTERFACE cxx_std_20)
+if(MSVC)
+  target_compile_options(quadrille_compiler INTERFACE /W4 /fp:precise)
+else()
+  # No contraction: a fused multiply-add rounds once where the contract says twice.
+  target_compile_options(quadrille_compiler INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
+    -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd)
+endif()
+if(QUADRILLE_NATIVE AND NOT MSVC)
+  target_compile_options(quadrille_compiler INTERFACE -march=native)
+endif()
+if(QUADRILLE_WARNINGS_AS_ERRORS)
+  target_compile_options(quadrille_compiler INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
+endif()
+if(QUADRILLE_SANITIZE)
+  target_compile_options(quadrille_compiler INTERFACE
+    -fsanitize=${QUADRILLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(quadrille_compiler INTERFACE -fsanitize=${QUADRILLE_SANITIZE})
+endif()

@@ -1,0 +1,17 @@
+#pragma once
+
+/// Everything that a program that uses Quadrille needs.
+
+#include <quadrille/bodies.hpp>
+#include <quadrille/components.hpp>
+#include <quadrille/contact.hpp>
+#include <quadrille/entity.hpp>
+#include <quadrille/error.hpp>
+#include <quadrille/measure.hpp>
+#include <quadrille/partitioner.hpp>
+#include <quadrille/random.hpp>
+#include <quadrille/scene.hpp>
+#include <quadrille/simulation.hpp>
+#include <quadrille/snapshot.hpp>
+#include <quadrille/version.hpp>
+#include <quadrille/world.hpp>

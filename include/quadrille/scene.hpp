@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <quadrille/simulation.hpp>
+#include <quadrille/world.hpp>
+
+namespace quadrille {
+
+struct SceneOptions {
+    std::optional<std::uint64_t> entities;  ///< replaces the count of the first spawn group
+    std::optional<std::uint64_t> seed;      ///< replaces the scene's
+    bool renderers = false;                 ///< give the bodies a RectangleRenderer
+};
+
+/// A scene that is ready to run.
+struct Scene {
+    std::string name;
+    std::uint64_t seed = 1;
+    World world;
+    StepSettings step;
+};
+
+/// Reads a scene file (TOML; docs/scenes.md describes the format) and makes its bodies: walls,
+/// spawn groups, single bodies, instances, each in the order of the file.
+/// Throws SceneError, naming file, line, column and key, for anything that it cannot take.
+Scene loadScene(const std::filesystem::path& file, const SceneOptions& options = {});
+
+}  // namespace quadrille

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include <quadrille/bodies.hpp>
+#include <quadrille/contact.hpp>
+#include <quadrille/partitioner.hpp>
+#include <quadrille/vec2.hpp>
+#include <quadrille/world.hpp>
+
+namespace quadrille {
+
+/// What a contact does to its two bodies; docs/step.md describes each law.
+enum class Law : std::uint8_t { Baseline, Impulse, Continuous };
+
+/// Who finds and resolves the contacts.
+enum class ResolverKind : std::uint8_t { Sequential, Threads, Cuda, CudaResident };
+
+std::string_view name(Law law);
+std::string_view name(Precision precision);
+std::string_view name(ResolverKind resolver);
+
+/// What a scene says about its steps.
+struct StepSettings {
+    double dt = 1.0 / 60;     ///< s
+    Vec2 gravity{0, 0};       ///< px/s^2
+    double restitution = 1;   ///< in [0, 1]
+};
+
+struct SimulationConfig {
+    PartitionerConfig partitioner = SemiStaticQuadtree{};
+    Law law = Law::Impulse;
+    Precision precision = Precision::Double;
+    ResolverKind resolver = ResolverKind::Sequential;
+    double dt = 1.0 / 60;    ///< s
+    Vec2 gravity{0, 0};      ///< px/s^2
+    double restitution = 1;  ///< in [0, 1]
+    bool profile = false;    ///< measure the phases of each step
+};
+
+/// The phases of a step, in the order in which they run.
+enum class Phase : std::uint8_t { Integrate, Partition, Resolve, Observe };
+inline constexpr std::size_t phaseCount = 4;
+
+struct StepReport {
+    std::uint64_t step = 0;         ///< number of the step that ended, from 1
+    std::uint64_t contacts = 0;     ///< pairs that touched
+    std::uint64_t collisions = 0;   ///< contacts that exchanged an impulse
+    std::uint64_t pairsTested = 0;  ///< pairs whose boxes were compared
+    bool rebuilt = false;           ///< the partition was built in this step
+    std::array<double, phaseCount> phaseSeconds{};  ///< only with SimulationConfig::profile
+};
+
+/// What the scene makes the engine model; what is absent costs nothing.
+struct ModelFeatures {
+    bool movingBodies = false;
+    bool staticBodies = false;
+    bool gravity = false;
+    bool inelastic = false;     ///< restitution below 1
+    bool sizesDiffer = false;   ///< moving bodies have their own sizes
+    bool massesDiffer = false;  ///< moving bodies have their own masses
+    bool listeners = false;     ///< contacts are handed out
+    bool profile = false;       ///< phases are timed
+};
+
+/// Advances a world in steps of equal length.
+///
+/// The result of a step depends on the world, law, precision, dt, gravity and restitution; never on
+/// the partitioner (BruteForce and SemiStaticQuadtree::EveryFrames apart, which is allowed to miss
+/// pairs), the clock or the number of steps asked for at once.
+class Simulation {
+  public:
+    /// Throws Error for impossible values and NotAvailable for combinations that this version
+    /// cannot run.
+    explicit Simulation(World world, SimulationConfig config = {});
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+
+    /// One step. Throws Error if a position stops being finite.
+    const StepReport& step();
+    void run(std::uint64_t steps);
+
+    World& world();
+    const World& world() const;
+    const SimulationConfig& config() const;
+
+    std::uint64_t stepsDone() const;
+    double time() const;  ///< s, stepsDone * dt
+
+    /// Called in canonical order for every contact, after all of a step's contacts are resolved.
+    void onContact(std::function<void(const Contact&)> listener);
+    /// Called after every step.
+    void onStep(std::function<void(const World&, const StepReport&)> observer);
+    /// Called before every step, in the order in which they were added.
+    void addSystem(std::function<void(World&, double dt)> system);
+
+    /// Takes effect with the next step; the state stays as it is.
+    void setPartitioner(const PartitionerConfig& partitioner);
+
+    /// The cells of the last step; empty before the first.
+    const Cells& cells() const;
+
+    ModelFeatures features() const;
+
+    /// Bytes that the simulation allocated beside the world: cells, contacts, work space.
+    std::size_t workspaceBytes() const;
+
+    /// Continues the count of steps from a snapshot.
+    void resumeAt(std::uint64_t stepsDone);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille

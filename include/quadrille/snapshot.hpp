@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include <quadrille/simulation.hpp>
+#include <quadrille/world.hpp>
+
+namespace quadrille {
+
+/// Everything that decides how a run goes on, and where it came from.
+struct Snapshot {
+    std::string scene;
+    std::uint64_t seed = 1;
+    std::uint64_t stepsDone = 0;
+    Law law = Law::Impulse;
+    StepSettings step;
+    World world;  ///< in the precision of the run
+};
+
+/// Writes the state of a simulation: entities with their generations, body columns, the built-in
+/// components and names; not components of the user's own types. The file appears whole or not at
+/// all. Throws Error if it cannot be written.
+void saveSnapshot(const std::filesystem::path& file, const Simulation& simulation,
+                  const std::string& scene, std::uint64_t seed);
+
+/// Reads a snapshot. Throws SnapshotError if it is damaged or not a snapshot of this version.
+///
+/// A run that goes on from it gives the same bits as one that was never interrupted, with law
+/// `impulse` and any complete partitioner. `baseline` and the policy EveryFrames also depend on the
+/// age of the tree, which starts anew.
+Snapshot loadSnapshot(const std::filesystem::path& file);
+
+}  // namespace quadrille

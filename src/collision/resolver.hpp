@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <quadrille/bodies.hpp>
+#include <quadrille/simulation.hpp>
+
+#include "collision/partitioner.hpp"
+
+namespace quadrille {
+
+/// The numbers of a step that a contact law uses.
+template <class Real>
+struct StepParameters {
+    Real dt;
+    Real gravityX, gravityY;
+    Real restitution;
+};
+
+/// A contact as the resolvers hand it to observers.
+struct ContactRecord {
+    double sinceStart;       ///< s from the start of the step to the impact
+    std::uint32_t a;         ///< row of a moving body
+    std::int64_t b;          ///< row of a moving body, or -1 - row of a static one
+    std::uint8_t axes;
+    std::int8_t senseX, senseY;
+    bool collided;
+};
+
+struct ResolveCounts {
+    std::uint64_t contacts = 0;
+    std::uint64_t collisions = 0;
+    std::uint64_t pairsTested = 0;
+};
+
+/// Executes narrow phase and contact law for one step.
+template <class Real>
+class Resolver {
+  public:
+    virtual ~Resolver() = default;
+
+    /// Changes positions and velocities of the moving bodies. Appends to `records`, unless it is
+    /// null, one record for each contact in the order in which they are resolved.
+    virtual ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
+                                  const StepParameters<Real>& step,
+                                  std::vector<ContactRecord>* records) = 0;
+
+    /// Bytes of work space.
+    virtual std::size_t bytes() const = 0;
+};
+
+/// Throws NotAvailable if this version has no such resolver for the law.
+template <class Real>
+std::unique_ptr<Resolver<Real>> makeResolver(ResolverKind kind, Law law);
+
+}  // namespace quadrille

@@ -1,0 +1,148 @@
+#include "collision/semi_static_quadtree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <quadrille/error.hpp>
+
+namespace quadrille {
+
+namespace {
+
+/// Largest speed of any body along either axis.
+template <class Real>
+Real fastest(const BodyView<Real>& bodies) {
+    const auto largest = [](std::span<const Real> values) {
+        Real most = 0;
+#pragma omp simd reduction(max : most)
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const Real speed = std::abs(values[i]);
+            most = speed > most ? speed : most;
+        }
+        return most;
+    };
+    return std::max(largest(bodies.moving.vx), largest(bodies.moving.vy));
+}
+
+template <class Real>
+double mean(const ColumnView<Real>& column, std::size_t rows) {
+    if (column.uniform() || rows == 0) return static_cast<double>(column.common);
+    double sum = 0;
+    for (const Real value : column.values) sum += static_cast<double>(value);
+    return sum / static_cast<double>(rows);
+}
+
+/// Sum over the cells of bodies^2 / area, 1/px^2: how many neighbours a body has per area, summed
+/// over the bodies.
+double crowding(const Cells& cells) {
+    double sum = 0;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const double count = cells.offsets[c + 1] - cells.offsets[c];
+        const double side = double(1u << cells.coordinates[c].shift);
+        sum += count * count / (side * side);
+    }
+    return sum / (cells.fineCell.x() * cells.fineCell.y());
+}
+
+}  // namespace
+
+template <class Real>
+SemiStaticQuadtreePartitioner<Real>::SemiStaticQuadtreePartitioner(const SemiStaticQuadtree& config,
+                                                                   const Vec2& worldSize)
+    : config_(config), builder_(config.maxDepth, config.maxPerCell, worldSize) {
+    if (const auto* every = std::get_if<SemiStaticQuadtree::EveryFrames>(&config.rebuild)) {
+        if (every->frames < 1) throw Error("semi-static quadtree: rebuild every 1 frame or more");
+        this->partition_.complete = false;
+    }
+    if (const auto* skin = std::get_if<SemiStaticQuadtree::Skin>(&config.rebuild)) {
+        if (!std::isfinite(skin->width) || skin->width < 0) {
+            throw Error("semi-static quadtree: the skin must be finite and not negative");
+        }
+    }
+}
+
+template <class Real>
+bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, Real dt) {
+    ++age_;
+    bool due = this->partition_.generation == 0 || bodies.revision != builtRevision_;
+    if (const auto* every = std::get_if<SemiStaticQuadtree::EveryFrames>(&config_.rebuild)) {
+        due = due || age_ >= static_cast<std::uint32_t>(every->frames);
+    } else {
+        due = due || anyLeft(bodies);
+        if (due) this->partition_.margin = chooseMargin(bodies, dt);
+    }
+    if (due) rebuild(bodies);
+    return due;
+}
+
+template <class Real>
+void SemiStaticQuadtreePartitioner<Real>::rebuild(const BodyView<Real>& bodies) {
+    builder_.build(bodies, this->partition_);
+    builtRevision_ = bodies.revision;
+    age_ = 0;
+    if (this->partition_.complete) {
+        builtX_.assign(bodies.moving.x.begin(), bodies.moving.x.end());
+        builtY_.assign(bodies.moving.y.begin(), bodies.moving.y.end());
+    }
+}
+
+template <class Real>
+bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies) const {
+    const auto left = [margin = this->partition_.margin](std::span<const Real> now,
+                                                         const std::vector<Real>& then) {
+        int count = 0;
+        // Negated, so that a NaN counts as having left.
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            count |= !(std::abs(now[i] - then[i]) <= margin);
+        }
+        return count != 0;
+    };
+    return left(bodies.moving.x, builtX_) || left(bodies.moving.y, builtY_);
+}
+
+/// The skin that makes a step cheapest: a wider one is rebuilt less often and has more pairs to
+/// test. Both grow in known ways, and the prices below are measured (docs/performance.md); the
+/// result is the same with any skin, so a poor choice costs time only.
+template <class Real>
+Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bodies,
+                                                       Real dt) const {
+    const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
+    if (fixed > 0) return static_cast<Real>(fixed);
+
+    constexpr double buildPrice = 40;  // ns a body
+    constexpr double pairPrice = 2;    // ns a candidate pair and step
+    constexpr int longest = 40;        // steps
+
+    const auto& moving = bodies.moving;
+    const auto count = static_cast<double>(moving.size());
+    const Cells& cells = this->partition_.cells;
+    const Vec2 world = builder_.worldSize();
+    const double crowd = this->partition_.generation == 0 ? count * count / (world.x() * world.y())
+                                                          : crowding(cells);
+    const double width = 2 * mean(moving.halfWidth, moving.size());
+    const double height = 2 * mean(moving.halfHeight, moving.size());
+    const double travel = static_cast<double>(fastest(bodies) * dt);  // px a step
+    double bestCost = 0;
+    double bestMargin = 0;
+    for (int steps = 0; steps <= longest; ++steps) {
+        const double margin = (steps + 0.01) * travel;
+        const double pairs = 2 * (width + 2 * margin) * (height + 2 * margin) * crowd;
+        const double cost = buildPrice * count / (steps + 1) + pairPrice * pairs;
+        if (steps == 0 || cost < bestCost) {
+            bestCost = cost;
+            bestMargin = margin;
+        }
+    }
+    return static_cast<Real>(bestMargin);
+}
+
+template <class Real>
+std::size_t SemiStaticQuadtreePartitioner<Real>::bytes() const {
+    return this->partition_.bytes() + builder_.bytes() +
+           (builtX_.capacity() + builtY_.capacity()) * sizeof(Real);
+}
+
+template class SemiStaticQuadtreePartitioner<double>;
+template class SemiStaticQuadtreePartitioner<float>;
+
+}  // namespace quadrille

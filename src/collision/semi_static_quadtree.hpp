@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "collision/quadtree.hpp"
+
+namespace quadrille {
+
+/// A quadtree that is kept for several steps: with a skin until a body may have left its inflated
+/// box, or by the report's policy for a fixed number of steps.
+template <class Real>
+class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
+  public:
+    SemiStaticQuadtreePartitioner(const SemiStaticQuadtree& config, const Vec2& worldSize);
+
+    bool update(const BodyView<Real>& bodies, Real dt) override;
+
+    std::size_t bytes() const override;
+
+  private:
+    void rebuild(const BodyView<Real>& bodies);
+    bool anyLeft(const BodyView<Real>& bodies) const;
+    Real chooseMargin(const BodyView<Real>& bodies, Real dt) const;
+
+    SemiStaticQuadtree config_;
+    QuadtreeBuilder<Real> builder_;
+    std::vector<Real> builtX_, builtY_;  // positions at the last build
+    std::uint64_t builtRevision_ = 0;
+    std::uint32_t age_ = 0;              // steps since the last build
+};
+
+}  // namespace quadrille

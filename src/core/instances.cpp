@@ -1,0 +1,93 @@
+#include "core/instances.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include <quadrille/error.hpp>
+
+namespace quadrille {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> columnNames = {"x", "y", "vx", "vy", "w", "h", "mass"};
+
+class InstanceReader {
+  public:
+    InstanceReader(std::string file, const Instance& defaults)
+        : file_(std::move(file)), defaults_(defaults) {}
+
+    void readHeader(std::string_view line) {
+        std::string expected;
+        for (std::size_t i = 0; i < columnNames.size(); ++i) {
+            if (i > 0) expected += ',';
+            expected += columnNames[i];
+            if (i + 1 != 4 && i + 1 != 6 && i + 1 != 7) continue;
+            if (line == expected) columns_ = i + 1;
+        }
+        if (columns_ == 0) fail(1, 1, "the header must be x,y,vx,vy[,w,h[,mass]]");
+    }
+
+    Instance readRow(std::string_view line, std::size_t lineNumber) const {
+        std::array<double, 7> values{};
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < columns_; ++i) {
+            const auto [end, error] =
+                std::from_chars(line.data() + at, line.data() + line.size(), values[i]);
+            const auto next = static_cast<std::size_t>(end - line.data());
+            if (error != std::errc() || !std::isfinite(values[i])) {
+                fail(lineNumber, at + 1,
+                     std::string(columnNames[i]) + ": must be a finite number");
+            }
+            if (i >= 4 && !(values[i] > 0)) {
+                fail(lineNumber, at + 1, std::string(columnNames[i]) + ": must be positive");
+            }
+            const bool last = i + 1 == columns_;
+            if (last ? next != line.size() : next >= line.size() || line[next] != ',') {
+                fail(lineNumber, next + 1,
+                     "must have " + std::to_string(columns_) + " numbers, with commas between");
+            }
+            at = next + 1;
+        }
+        Instance result = defaults_;
+        result.position = Vec2(values[0], values[1]);
+        result.velocity = Vec2(values[2], values[3]);
+        if (columns_ >= 6) result.size = Vec2(values[4], values[5]);
+        if (columns_ >= 7) result.mass = values[6];
+        return result;
+    }
+
+  private:
+    [[noreturn]] void fail(std::size_t line, std::size_t column, const std::string& reason) const {
+        throw SceneError(file_ + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " +
+                         reason);
+    }
+
+    std::string file_;
+    Instance defaults_;
+    std::size_t columns_ = 0;
+};
+
+}  // namespace
+
+std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults) {
+    std::ifstream in(file);
+    if (!in) throw SceneError(file.string() + ": cannot be opened");
+    InstanceReader reader(file.string(), defaults);
+    std::vector<Instance> result;
+    std::string line;
+    for (std::size_t number = 1; std::getline(in, line); ++number) {
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (number == 1) {
+            reader.readHeader(line);
+        } else if (!line.empty()) {
+            result.push_back(reader.readRow(line, number));
+        }
+    }
+    if (in.bad()) throw SceneError(file.string() + ": cannot be read");
+    return result;
+}
+
+}  // namespace quadrille

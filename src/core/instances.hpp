@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <quadrille/vec2.hpp>
+
+namespace quadrille {
+
+/// A row of an instance file.
+struct Instance {
+    Vec2 position{0, 0};  ///< px
+    Vec2 velocity{0, 0};  ///< px/s
+    Vec2 size{1, 1};      ///< px
+    double mass = 1;
+};
+
+/// Reads a CSV file with the header x,y,vx,vy[,w,h[,mass]]; rows without w,h or mass take those of
+/// `defaults`. Throws SceneError, naming file, line and column, for anything else.
+std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults);
+
+}  // namespace quadrille

@@ -1,0 +1,106 @@
+#include <quadrille/measure.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include "collision/canonical_order.hpp"
+#include "collision/narrow_phase.hpp"
+#include "collision/partitioner.hpp"
+
+namespace quadrille {
+
+namespace {
+
+template <class Real>
+std::uint64_t bitsOf(Real value) {
+    using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
+    return std::bit_cast<Bits>(value == 0 ? Real(0) : value);
+}
+
+}  // namespace
+
+std::uint64_t stateHash(const World& world) {
+    return world.visitBodies([](const auto& bodies) {
+        const auto& m = bodies.moving;
+        // 2^64 / golden ratio: neighbouring positions get unrelated offsets (Knuth, TAOCP 6.4).
+        constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;
+        std::uint64_t sum = mix64(m.size());
+        std::uint64_t position = 0;
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            for (const auto value : {m.x[i], m.y[i], m.vx[i], m.vy[i]}) {
+                sum += mix64(mix64(bitsOf(value)) + ++position * golden);
+            }
+        }
+        return mix64(sum);
+    });
+}
+
+double kineticEnergy(const World& world) { return totalEnergy(world, Vec2(0, 0)); }
+
+double totalEnergy(const World& world, const Vec2& gravity) {
+    return world.visitBodies([&](const auto& bodies) {
+        const auto& m = bodies.moving;
+        double sum = 0;
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            const Vec2 v(m.vx[i], m.vy[i]);
+            double energy = v.squaredNorm() / 2;
+            if (gravity != Vec2(0, 0)) energy -= gravity.dot(Vec2(m.x[i], m.y[i]));
+            sum += static_cast<double>(m.mass[i]) * energy;
+        }
+        return sum;
+    });
+}
+
+Vec2 momentum(const World& world) {
+    return world.visitBodies([](const auto& bodies) {
+        const auto& m = bodies.moving;
+        Vec2 sum(0, 0);
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            sum += static_cast<double>(m.mass[i]) * Vec2(m.vx[i], m.vy[i]);
+        }
+        return sum;
+    });
+}
+
+std::size_t escaped(const World& world) {
+    const Vec2 half = world.config().size / 2;
+    return world.visitBodies([&](const auto& bodies) {
+        const auto& m = bodies.moving;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            count += !(std::abs(m.x[i]) <= half.x() && std::abs(m.y[i]) <= half.y());
+        }
+        return count;
+    });
+}
+
+Overlap overlap(const World& world) {
+    return world.visitBodies([&]<class Real>(const BodyView<Real>& bodies) {
+        const auto& m = bodies.moving;
+        const auto& f = bodies.fixed;
+        auto partitioner = makePartitioner<Real>(Quadtree{}, world.config().size);
+        partitioner->update(bodies, Real(1));
+        Overlap result;
+        const auto add = [&](Real dx, Real dy, Real reachX, Real reachY) {
+            const double depth = static_cast<double>(leastPenetration(dx, dy, reachX, reachY).depth);
+            ++result.pairs;
+            result.mean += depth;
+            result.max = std::max(result.max, depth);
+        };
+        NarrowPhase<Real> narrowPhase;
+        narrowPhase.find(
+            bodies, partitioner->partition(),
+            [&](MovingPair p, Real reachX, Real reachY) {
+                add(m.x[p.b] - m.x[p.a], m.y[p.b] - m.y[p.a], reachX, reachY);
+            },
+            [&](StaticPair p, Real reachX, Real reachY) {
+                add(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a], reachX, reachY);
+            });
+        if (result.pairs > 0) result.mean /= double(result.pairs);
+        return result;
+    });
+}
+
+}  // namespace quadrille

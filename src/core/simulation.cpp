@@ -1,0 +1,194 @@
+#include <quadrille/simulation.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <quadrille/error.hpp>
+
+#include "core/stepper.hpp"
+
+namespace quadrille {
+
+std::string_view name(Precision precision) {
+    return precision == Precision::Double ? "double" : "float";
+}
+
+namespace {
+
+void validate(const SimulationConfig& config) {
+    if (!std::isfinite(config.dt) || !(config.dt > 0)) {
+        throw Error("simulation: dt must be finite and positive");
+    }
+    if (config.precision == Precision::Float && !(static_cast<float>(config.dt) > 0)) {
+        throw Error("simulation: dt vanishes in single precision");
+    }
+    if (!config.gravity.allFinite()) throw Error("simulation: gravity must be finite");
+    if (!(config.restitution >= 0 && config.restitution <= 1)) {
+        throw Error("simulation: restitution must be from 0 to 1");
+    }
+}
+
+using AnyStepper = std::variant<Stepper<double>, Stepper<float>>;
+
+AnyStepper makeStepper(const SimulationConfig& config, const Vec2& worldSize) {
+    if (config.precision == Precision::Float) return Stepper<float>(config, worldSize);
+    return Stepper<double>(config, worldSize);
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+    World world;
+    SimulationConfig config;
+    AnyStepper stepper;
+    StepReport report;
+    std::uint64_t stepsDone = 0;
+
+    std::vector<std::function<void(World&, double)>> systems;
+    std::vector<std::function<void(const Contact&)>> contactListeners;
+    std::vector<std::function<void(const World&, const StepReport&)>> observers;
+    std::vector<ContactRecord> records;
+    std::vector<Contact> contacts;
+
+    Impl(World w, SimulationConfig c)
+        : world(std::move(w)), config(std::move(c)),
+          stepper(makeStepper(config, world.config().size)) {
+        world.setPrecision(config.precision);
+    }
+
+    void collectContacts(double start);
+    void notify(double start);
+};
+
+Simulation::Simulation(World world, SimulationConfig config) {
+    validate(config);
+    impl_ = std::make_unique<Impl>(std::move(world), std::move(config));
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+const StepReport& Simulation::step() {
+    Impl& s = *impl_;
+    s.world.flush();
+    for (const auto& system : s.systems) system(s.world, s.config.dt);
+    s.world.flush();
+
+    const double start = time();
+    s.report = StepReport{.step = s.stepsDone + 1};
+    s.records.clear();
+    std::visit(
+        [&](auto& stepper) {
+            stepper.step(s.world, s.contactListeners.empty() ? nullptr : &s.records, s.report,
+                         s.config.profile);
+        },
+        s.stepper);
+    ++s.stepsDone;
+    s.notify(start);
+    return s.report;
+}
+
+/// Contacts are complete before a listener sees one: it may create and destroy bodies.
+void Simulation::Impl::collectContacts(double start) {
+    contacts.clear();
+    world.visitBodies([&](const auto& bodies) {
+        const auto entityOf = [&](std::int64_t row) {
+            return world.entityAt(row >= 0 ? bodies.moving.entity[static_cast<std::size_t>(row)]
+                                           : bodies.fixed.entity[static_cast<std::size_t>(-1 - row)]);
+        };
+        for (const ContactRecord& record : records) {
+            contacts.push_back({.a = entityOf(record.a),
+                                .b = entityOf(record.b),
+                                .time = start + record.sinceStart,
+                                .axis = static_cast<Axis>(record.axes),
+                                .normal = Vec2((record.axes & 1) != 0 ? record.senseX : 0,
+                                               (record.axes & 2) != 0 ? record.senseY : 0),
+                                .collided = record.collided,
+                                .rowA = record.a,
+                                .rowB = record.b});
+        }
+    });
+}
+
+void Simulation::Impl::notify(double start) {
+    if (contactListeners.empty() && observers.empty()) return;
+    const auto before = std::chrono::steady_clock::now();
+    if (!records.empty()) {
+        collectContacts(start);
+        for (const Contact& contact : contacts) {
+            for (const auto& listener : contactListeners) listener(contact);
+        }
+    }
+    for (const auto& observer : observers) observer(world, report);
+    world.flush();
+    if (config.profile) {
+        report.phaseSeconds[static_cast<std::size_t>(Phase::Observe)] =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    }
+}
+
+void Simulation::run(std::uint64_t steps) {
+    for (std::uint64_t i = 0; i < steps; ++i) step();
+}
+
+World& Simulation::world() { return impl_->world; }
+const World& Simulation::world() const { return impl_->world; }
+const SimulationConfig& Simulation::config() const { return impl_->config; }
+std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
+double Simulation::time() const { return double(impl_->stepsDone) * impl_->config.dt; }
+
+void Simulation::onContact(std::function<void(const Contact&)> listener) {
+    impl_->contactListeners.push_back(std::move(listener));
+}
+
+void Simulation::onStep(std::function<void(const World&, const StepReport&)> observer) {
+    impl_->observers.push_back(std::move(observer));
+}
+
+void Simulation::addSystem(std::function<void(World&, double)> system) {
+    impl_->systems.push_back(std::move(system));
+}
+
+void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
+    SimulationConfig config = impl_->config;
+    config.partitioner = partitioner;
+    std::visit([&](auto& s) { s.setPartitioner(config, impl_->world.config().size); },
+               impl_->stepper);
+    impl_->config = std::move(config);
+}
+
+const Cells& Simulation::cells() const {
+    return std::visit([](const auto& s) -> const Cells& { return s.cells(); }, impl_->stepper);
+}
+
+ModelFeatures Simulation::features() const {
+    const Impl& s = *impl_;
+    return s.world.visitBodies([&](const auto& bodies) {
+        const auto& m = bodies.moving;
+        return ModelFeatures{
+            .movingBodies = m.size() > 0,
+            .staticBodies = bodies.fixed.size() > 0,
+            .gravity = s.config.gravity != Vec2(0, 0),
+            .inelastic = s.config.restitution != 1,
+            .sizesDiffer = !m.halfWidth.uniform() || !m.halfHeight.uniform(),
+            .massesDiffer = !m.mass.uniform(),
+            .listeners = !s.contactListeners.empty(),
+            .profile = s.config.profile,
+        };
+    });
+}
+
+std::size_t Simulation::workspaceBytes() const {
+    return std::visit([](const auto& s) { return s.bytes(); }, impl_->stepper) +
+           impl_->records.capacity() * sizeof(ContactRecord) +
+           impl_->contacts.capacity() * sizeof(Contact);
+}
+
+void Simulation::resumeAt(std::uint64_t stepsDone) { impl_->stepsDone = stepsDone; }
+
+}  // namespace quadrille

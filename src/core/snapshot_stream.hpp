@@ -1,0 +1,95 @@
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <quadrille/error.hpp>
+
+namespace quadrille {
+
+/// FNV-1a, 64 bits (Fowler, Noll & Vo): finds damage, not malice.
+class Checksum {
+  public:
+    void add(const void* data, std::size_t size) {
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3u;
+    }
+    std::uint64_t value() const { return value_; }
+
+  private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+template <class T>
+concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Writes numbers in the machine's byte order, which the snapshot's header names. The data go to a
+/// file beside the target, which takes the target's name when it is complete.
+class SnapshotWriter {
+  public:
+    explicit SnapshotWriter(const std::filesystem::path& target);
+    ~SnapshotWriter();
+    SnapshotWriter(const SnapshotWriter&) = delete;
+    SnapshotWriter& operator=(const SnapshotWriter&) = delete;
+
+    void write(const void* data, std::size_t size);
+    template <PlainNumber T>
+    void number(T value) {
+        write(&value, sizeof value);
+    }
+    template <PlainNumber T>
+    void numbers(const std::vector<T>& values) {
+        number<std::uint64_t>(values.size());
+        write(values.data(), values.size() * sizeof(T));
+    }
+    void text(const std::string& value);
+
+    /// Appends the checksum and gives the file its name. Throws Error if anything failed.
+    void commit();
+
+  private:
+    std::filesystem::path target_, temporary_;
+    std::ofstream out_;
+    Checksum checksum_;
+    bool committed_ = false;
+};
+
+/// Reads what SnapshotWriter wrote; throws SnapshotError where the data end too early.
+class SnapshotReader {
+  public:
+    /// Reads the whole file and verifies its checksum.
+    explicit SnapshotReader(const std::filesystem::path& file);
+
+    void read(void* data, std::size_t size);
+    template <PlainNumber T>
+    T number() {
+        T value;
+        read(&value, sizeof value);
+        return value;
+    }
+    template <PlainNumber T>
+    std::vector<T> numbers() {
+        const auto size = number<std::uint64_t>();
+        if (size > left() / sizeof(T)) fail("ends too early");
+        std::vector<T> values(size);
+        read(values.data(), size * sizeof(T));
+        return values;
+    }
+    std::string text();
+    std::size_t left() const { return data_.size() - at_; }
+
+    [[noreturn]] void fail(const std::string& reason) const;
+
+  private:
+    std::string file_;
+    std::vector<char> data_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace quadrille
