@@ -1,0 +1,55 @@
+# Installs the library, its headers, the scenes and the application, so that
+# find_package(quadrille) gives quadrille::core.
+option(QUADRILLE_INSTALL "Add the rules that install Quadrille" ${PROJECT_IS_TOP_LEVEL})
+if(NOT QUADRILLE_INSTALL)
+  return()
+endif()
+include(CMakePackageConfigHelpers)
+
+# Below 1.0 a minor version may change the binary interface.
+set_target_properties(quadrille_core PROPERTIES
+  VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+  WINDOWS_EXPORT_ALL_SYMBOLS ON)
+
+install(TARGETS quadrille_core EXPORT quadrilleTargets
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/quadrille
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/quadrille
+        FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+if(TARGET collisionStress)
+  # The installed program finds a shared library beside itself, wherever the prefix is moved to.
+  file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(collisionStress PROPERTIES
+    INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>/${lib_from_bin})
+  install(TARGETS collisionStress RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+# Who links a static library links its private libraries too, so they must be found again.
+get_target_property(core_type quadrille_core TYPE)
+get_target_property(core_libraries quadrille_core LINK_LIBRARIES)
+set(QUADRILLE_PRIVATE_DEPENDENCIES "")
+if(core_type STREQUAL STATIC_LIBRARY)
+  if(core_libraries MATCHES "OpenMP::OpenMP_CXX")
+    string(APPEND QUADRILLE_PRIVATE_DEPENDENCIES "find_dependency(OpenMP COMPONENTS CXX)\n")
+  endif()
+  if(core_libraries MATCHES "Threads::Threads")
+    string(APPEND QUADRILLE_PRIVATE_DEPENDENCIES "find_dependency(Threads)\n")
+  endif()
+endif()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/quadrille-config.cmake.in
+  ${PROJECT_BINARY_DIR}/quadrille-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/quadrille-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION ${package_dir})
+install(FILES ${PROJECT_BINARY_DIR}/quadrille-config.cmake
+              ${PROJECT_BINARY_DIR}/quadrille-config-version.cmake
+        DESTINATION ${package_dir})

@@ -60,11 +60,6 @@ struct Bounds {
 struct CellCoordinates {
     std::uint16_t x = 0, y = 0;
     std::uint8_t shift = 0;
-
-    bool contains(std::uint32_t fineX, std::uint32_t fineY) const {
-        return (fineX >> shift) == (static_cast<std::uint32_t>(x) >> shift) &&
-               (fineY >> shift) == (static_cast<std::uint32_t>(y) >> shift);
-    }
 };
 
 /// Cells in compressed sparse rows: cell c holds bodies[offsets[c] .. offsets[c + 1]), moving bodies

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "collision/host_device.hpp"
@@ -11,7 +12,7 @@ namespace quadrille {
 
 template <class Real>
 QUADRILLE_HD inline Real magnitude(Real value) {
-    return value < 0 ? -value : value;
+    return std::abs(value);
 }
 
 /// Open boxes intersect: level edges do not touch. `reach` is the sum of the half extents.

@@ -12,6 +12,15 @@
 
 namespace quadrille {
 
+/// Whether a body's box begins left of a cell or below it.
+///
+/// Of the cells that two bodies share, their pair belongs to the one that holds the low corner of
+/// the intersection of their boxes: the one in which no edge is crossed by both. Pairs of an
+/// incomplete partition belong to every cell that they share.
+struct CrossedEdges {
+    bool left, below;
+};
+
 /// Cells, and what the narrow phase needs to know about how they were made.
 template <class Real>
 struct Partition {
@@ -21,13 +30,10 @@ struct Partition {
     bool complete = true;           ///< every overlapping pair shares a cell
     std::uint64_t generation = 0;   ///< counts the builds
 
-    /// The one cell, among those that two bodies share, in which their pair is looked at: the one
-    /// that holds the low corner of the intersection of their ranges.
-    bool owns(std::size_t cell, std::uint32_t a, std::uint32_t b) const {
-        const FineRange& p = ranges[a];
-        const FineRange& q = ranges[b];
-        return cells.coordinates[cell].contains(p.x0 > q.x0 ? p.x0 : q.x0,
-                                                p.y0 > q.y0 ? p.y0 : q.y0);
+    CrossedEdges crossedEdges(std::size_t cell, std::uint32_t body) const {
+        const CellCoordinates& c = cells.coordinates[cell];
+        const FineRange& r = ranges[body];
+        return {complete && r.x0 < c.x, complete && r.y0 < c.y};
     }
 
     std::size_t bytes() const {

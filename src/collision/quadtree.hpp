@@ -18,8 +18,6 @@ class QuadtreeBuilder {
     /// Replaces the partition's cells by the leaves for boxes inflated by partition.margin.
     void build(const BodyView<Real>& bodies, Partition<Real>& partition);
 
-    const Vec2& worldSize() const { return worldSize_; }
-
     std::size_t bytes() const;
 
   private:

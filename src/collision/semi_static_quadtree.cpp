@@ -100,6 +100,22 @@ bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies) 
     return left(bodies.moving.x, builtX_) || left(bodies.moving.y, builtY_);
 }
 
+/// How far a body has moved since the last build at most, in px a step.
+template <class Real>
+double SemiStaticQuadtreePartitioner<Real>::walked(const BodyView<Real>& bodies) const {
+    const auto& m = bodies.moving;
+    if (builtX_.size() != m.size()) return 0;
+    Real most = 0;
+#pragma omp simd reduction(max : most)
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        const Real x = std::abs(m.x[i] - builtX_[i]);
+        const Real y = std::abs(m.y[i] - builtY_[i]);
+        const Real distance = x > y ? x : y;
+        most = distance > most ? distance : most;
+    }
+    return static_cast<double>(most) / std::max(age_, 1u);
+}
+
 /// The skin that makes a step cheapest: a wider one is rebuilt less often and has more pairs to
 /// test. Both grow in known ways, and the prices below are measured (docs/performance.md); the
 /// result is the same with any skin, so a poor choice costs time only.
@@ -108,26 +124,29 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
                                                        Real dt) const {
     const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
     if (fixed > 0) return static_cast<Real>(fixed);
+    // The first tree shows how the bodies are spread, which decides about the second.
+    if (this->partition_.generation == 0) return 0;
 
-    constexpr double buildPrice = 40;  // ns a body
-    constexpr double pairPrice = 2;    // ns a candidate pair and step
-    constexpr int longest = 40;        // steps
+    constexpr double buildPrice = 45;   // ns a body, for tree and walk through its cells
+    constexpr double collectPrice = 8;  // ns a candidate pair, to be found and listed
+    constexpr double testPrice = 1.2;   // ns a candidate pair and step
+    constexpr int longest = 40;         // steps
 
     const auto& moving = bodies.moving;
     const auto count = static_cast<double>(moving.size());
     const Cells& cells = this->partition_.cells;
-    const Vec2 world = builder_.worldSize();
-    const double crowd = this->partition_.generation == 0 ? count * count / (world.x() * world.y())
-                                                          : crowding(cells);
+    const double crowd = crowding(cells);
     const double width = 2 * mean(moving.halfWidth, moving.size());
     const double height = 2 * mean(moving.halfHeight, moving.size());
-    const double travel = static_cast<double>(fastest(bodies) * dt);  // px a step
+    // What bodies walked lately counts too: pushing overlaps apart moves them beyond their speed.
+    const double travel = std::max(static_cast<double>(fastest(bodies) * dt), walked(bodies));
     double bestCost = 0;
     double bestMargin = 0;
     for (int steps = 0; steps <= longest; ++steps) {
-        const double margin = (steps + 0.01) * travel;
+        const double margin = steps == 0 ? 0 : (steps + 0.01) * travel;
         const double pairs = 2 * (width + 2 * margin) * (height + 2 * margin) * crowd;
-        const double cost = buildPrice * count / (steps + 1) + pairPrice * pairs;
+        const double cost =
+            (buildPrice * count + collectPrice * pairs) / (steps + 1) + testPrice * pairs;
         if (steps == 0 || cost < bestCost) {
             bestCost = cost;
             bestMargin = margin;

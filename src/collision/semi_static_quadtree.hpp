@@ -20,6 +20,7 @@ class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
   private:
     void rebuild(const BodyView<Real>& bodies);
     bool anyLeft(const BodyView<Real>& bodies) const;
+    double walked(const BodyView<Real>& bodies) const;
     Real chooseMargin(const BodyView<Real>& bodies, Real dt) const;
 
     SemiStaticQuadtree config_;

@@ -95,16 +95,18 @@ ResolveCounts SequentialImpulse<Real>::resolve(const BodyView<Real>& bodies,
     contacts_.clear();
     const std::uint64_t tested = narrowPhase_.find(
         bodies, partition,
-        [&](MovingPair p, Real reachX, Real reachY) {
+        [&](MovingPair p) {
             const auto impact = impactOf(m.x[p.b] - m.x[p.a], m.y[p.b] - m.y[p.a],
-                                         m.vx[p.b] - m.vx[p.a], m.vy[p.b] - m.vy[p.a], reachX,
-                                         reachY, step.dt);
+                                         m.vx[p.b] - m.vx[p.a], m.vy[p.b] - m.vy[p.a],
+                                         m.halfWidth[p.a] + m.halfWidth[p.b],
+                                         m.halfHeight[p.a] + m.halfHeight[p.b], step.dt);
             contacts_.push_back(
                 pending(impact, step.dt, m.entity[p.a], m.entity[p.b], p.a, p.b));
         },
-        [&](StaticPair p, Real reachX, Real reachY) {
+        [&](StaticPair p) {
             const auto impact = impactOf(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a],
-                                         -m.vx[p.a], -m.vy[p.a], reachX, reachY, step.dt);
+                                         -m.vx[p.a], -m.vy[p.a], m.halfWidth[p.a] + f.halfWidth[p.fixed],
+                                         m.halfHeight[p.a] + f.halfHeight[p.fixed], step.dt);
             contacts_.push_back(pending(impact, step.dt, m.entity[p.a], f.entity[p.fixed], p.a,
                                         p.fixed | staticBit));
         });

@@ -92,11 +92,14 @@ Overlap overlap(const World& world) {
         NarrowPhase<Real> narrowPhase;
         narrowPhase.find(
             bodies, partitioner->partition(),
-            [&](MovingPair p, Real reachX, Real reachY) {
-                add(m.x[p.b] - m.x[p.a], m.y[p.b] - m.y[p.a], reachX, reachY);
+            [&](MovingPair p) {
+                add(m.x[p.b] - m.x[p.a], m.y[p.b] - m.y[p.a], m.halfWidth[p.a] + m.halfWidth[p.b],
+                    m.halfHeight[p.a] + m.halfHeight[p.b]);
             },
-            [&](StaticPair p, Real reachX, Real reachY) {
-                add(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a], reachX, reachY);
+            [&](StaticPair p) {
+                add(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a],
+                    m.halfWidth[p.a] + f.halfWidth[p.fixed],
+                    m.halfHeight[p.a] + f.halfHeight[p.fixed]);
             });
         if (result.pairs > 0) result.mean /= double(result.pairs);
         return result;

@@ -1,0 +1,125 @@
+#include "bench/plan.hpp"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "bench/partitioner_spec.hpp"
+#include "bench/scene_files.hpp"
+
+namespace quadrille::bench {
+
+namespace {
+
+constexpr std::array<std::size_t, 5> reportCounts = {10, 100, 1'000, 10'000, 50'000};
+
+/// A row of "The same program on the benchmark machine" in the project's notes on the report
+/// (K. Han, J. Zhang, "Parallelizing 2D Collision Detection and Resolution", Carnegie Mellon
+/// University, December 2024): its published program on a host with 16 Xeon cores and an H200,
+/// dt 16 ms, 200 frames after 20, mean ms per frame on the balanced scene.
+struct ReportFigures {
+    std::string_view partitioner;
+    std::string_view program;
+    std::array<double, reportCounts.size()> milliseconds;
+};
+
+/// The report gives no figure for its semi-static tree without the GPU.
+constexpr std::array reportFigures = {
+    ReportFigures{
+        "static-grid", "report, StaticGrid sequential", {0.047, 0.059, 0.164, 1.91, 23.9}},
+    ReportFigures{"quadtree", "report, Quadtree sequential", {0.005, 0.062, 0.444, 4.00, 28.4}},
+    ReportFigures{
+        "semi-static-quadtree", "report, semi-static CUDA", {0.156, 0.158, 0.352, 2.42, 10.4}},
+};
+
+/// Parameters near the best of each partitioner at the density of the balanced scenes.
+const std::vector<std::string> contenders = {"static-grid:16x16",
+                                             "static-grid:26x26",
+                                             "quadtree:10/20",
+                                             "quadtree:10/32",
+                                             "semi-static-quadtree:10/12",
+                                             "semi-static-quadtree:10/20",
+                                             "semi-static-quadtree:10/32"};
+
+std::vector<std::string> shippedScenesWithMovingBodies(std::size_t least) {
+    std::vector<std::string> names;
+    for (std::string& name : shippedScenes()) {
+        if (openScene(name).world.movingCount() >= least) {
+            names.push_back(std::move(name));
+        }
+    }
+    return names;
+}
+
+}  // namespace
+
+std::vector<SceneRuns> expand(const Sweep& sweep) {
+    std::vector<Variant> variants;
+    for (const Law law : sweep.laws) {
+        for (const Precision precision : sweep.precisions) {
+            for (const std::string& spec : sweep.partitioners) {
+                variants.push_back({parsePartitioner(spec), law, precision});
+            }
+        }
+    }
+    std::vector<std::optional<std::uint64_t>> counts(sweep.entities.begin(), sweep.entities.end());
+    if (counts.empty()) counts.emplace_back();
+    std::vector<SceneRuns> runs;
+    for (const std::string& scene : sweep.scenes) {
+        for (const auto& count : counts) runs.push_back({scene, count, variants, sweep.frames});
+    }
+    return runs;
+}
+
+std::vector<Sweep> reportPreset() {
+    return {
+        {.scenes = {"balanced"},
+         .entities = {reportCounts.begin(), reportCounts.end()},
+         .partitioners = {"static-grid:26x26", "quadtree:10/20", "semi-static-quadtree:10/20/skin",
+                          "semi-static-quadtree:10/20/every=10"},
+         .laws = {Law::Baseline, Law::Impulse}}};
+}
+
+std::vector<Sweep> targetsPreset() {
+    return {{.scenes = {"balanced", "balanced-scaled"},
+             .entities = {50'000},
+             .partitioners = contenders},
+            {.scenes = {"balanced-scaled"},
+             .entities = {1'000'000},
+             .partitioners = contenders,
+             .frames = 60},
+            {.scenes = shippedScenesWithMovingBodies(1'000),
+             .entities = {},
+             .partitioners = {"quadtree:10/20", "semi-static-quadtree:10/20/skin"}}};
+}
+
+std::optional<Reference> reportReference(const Measurement& measurement) {
+    if (measurement.scene != "balanced") return {};
+    for (const ReportFigures& figures : reportFigures) {
+        if (figures.partitioner != name(measurement.variant.partitioner)) continue;
+        for (std::size_t i = 0; i < reportCounts.size(); ++i) {
+            if (reportCounts[i] == measurement.bodies) {
+                return Reference{std::string(figures.program), figures.milliseconds[i]};
+            }
+        }
+    }
+    return {};
+}
+
+std::optional<Reference> rebuiltTree(const Measurement& measurement,
+                                     const std::vector<Measurement>& sameScene) {
+    const auto* kept = std::get_if<SemiStaticQuadtree>(&measurement.variant.partitioner);
+    if (kept == nullptr) return {};
+    for (const Measurement& other : sameScene) {
+        const auto* rebuilt = std::get_if<Quadtree>(&other.variant.partitioner);
+        if (rebuilt != nullptr && rebuilt->maxDepth == kept->maxDepth &&
+            rebuilt->maxPerCell == kept->maxPerCell &&
+            other.variant.law == measurement.variant.law &&
+            other.variant.precision == measurement.variant.precision) {
+            return Reference{specOf(other.variant.partitioner), other.times.mean};
+        }
+    }
+    return {};
+}
+
+}  // namespace quadrille::bench

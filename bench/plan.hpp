@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/scene_runs.hpp"
+
+namespace quadrille::bench {
+
+/// Every scene with every count, each with every partitioner, law and precision.
+struct Sweep {
+    std::vector<std::string> scenes;
+    std::vector<std::uint64_t> entities;  ///< empty: the scene's own count
+    std::vector<std::string> partitioners;
+    std::vector<Law> laws{Law::Impulse};
+    std::vector<Precision> precisions{Precision::Double};
+    std::size_t frames = 200;
+};
+
+std::vector<SceneRuns> expand(const Sweep& sweep);
+
+/// The report's scaling experiment, with its parameters and its number of frames.
+std::vector<Sweep> reportPreset();
+
+/// The scenes that this project sets itself as targets.
+std::vector<Sweep> targetsPreset();
+
+/// What a measurement is compared with.
+struct Reference {
+    std::string name;
+    double milliseconds = 0;  ///< mean per frame
+};
+
+/// The report's own program on the same scene; none where it has no figure.
+std::optional<Reference> reportReference(const Measurement& measurement);
+
+/// The quadtree that is built anew each step, for a semi-static tree of the same parameters among
+/// the runs of the same scene.
+std::optional<Reference> rebuiltTree(const Measurement& measurement,
+                                     const std::vector<Measurement>& sameScene);
+
+}  // namespace quadrille::bench

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace quadrille::bench {
+
+/// Milliseconds per frame.
+struct FrameTimes {
+    double mean = 0, median = 0, p99 = 0;
+};
+
+/// `repeats` holds the milliseconds of each frame, once a repeat. A frame counts with its median
+/// over the repeats: they do the same work, so that what differs is the machine's doing. What
+/// varies between frames, a rebuilt tree say, stays. Throws Error if there are no values.
+FrameTimes summarize(const std::vector<std::vector<double>>& repeats);
+
+/// Calls `step` that often and appends the milliseconds of each call to `milliseconds`.
+template <class Step>
+void timeSteps(std::size_t count, std::vector<double>& milliseconds, Step&& step) {
+    using Clock = std::chrono::steady_clock;
+    // One reading a step: the end of a step is the start of the next.
+    auto start = Clock::now();
+    for (std::size_t i = 0; i < count; ++i) {
+        step();
+        const auto end = Clock::now();
+        milliseconds.push_back(std::chrono::duration<double, std::milli>(end - start).count());
+        start = end;
+    }
+}
+
+}  // namespace quadrille::bench

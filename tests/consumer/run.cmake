@@ -1,0 +1,45 @@
+# Installs the build tree BUILD_DIR into a prefix of its own, then configures, builds and runs the
+# project SOURCE_DIR against that. Also: CXX_COMPILER, GENERATOR, CONFIG, EIGEN3_DIR, CXX_FLAGS and
+# SANITIZE (a list as in -fsanitize=) as BUILD_DIR has them.
+foreach(name BUILD_DIR SOURCE_DIR CXX_COMPILER GENERATOR)
+  if(NOT ${name})
+    message(FATAL_ERROR "${name} is not set")
+  endif()
+endforeach()
+set(work ${BUILD_DIR}/consumer-test)
+set(prefix ${work}/prefix)
+
+# What an earlier run left must not stand in for what this one fails to install.
+file(REMOVE_RECURSE ${work})
+unset(ENV{DESTDIR})
+
+set(config)
+if(CONFIG)
+  set(config --config ${CONFIG})
+endif()
+if(SANITIZE)
+  # A static library brings no link options of its sanitizers; its user gives them.
+  string(APPEND CXX_FLAGS " -fsanitize=${SANITIZE}")
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "ended with: ${result}")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} ${config})
+# $<1:...> keeps a multi-configuration generator from appending the configuration.
+run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${work}/build -G ${GENERATOR}
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
+    -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_PREFIX_PATH=${prefix} -DEigen3_DIR=${EIGEN3_DIR}
+    -DCMAKE_RUNTIME_OUTPUT_DIRECTORY=$<1:${work}/bin>)
+# Another Quadrille on this machine must not be what was tested.
+file(STRINGS ${work}/build/CMakeCache.txt found REGEX "^quadrille_DIR:")
+string(FIND "${found}" "=${prefix}/" in_prefix)
+if(in_prefix EQUAL -1)
+  message(FATAL_ERROR "not the package just installed: ${found}")
+endif()
+run(${CMAKE_COMMAND} --build ${work}/build ${config})
+run(${work}/bin/consumer)

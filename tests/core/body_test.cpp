@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include <quadrille/bodies.hpp>
+#include <quadrille/column.hpp>
+#include <quadrille/measure.hpp>
+#include <quadrille/world.hpp>
+
+#include "support.hpp"
+
+namespace quadrille {
+namespace {
+
+struct Health {
+    int points = 0;
+};
+
+std::vector<std::uint32_t> movingEntities(const World& world) {
+    return world.visitBodies([](const auto& bodies) {
+        return std::vector<std::uint32_t>(bodies.moving.entity.begin(), bodies.moving.entity.end());
+    });
+}
+
+TEST(Body, FormsWhenAllThreeComponentsArePresentInAnyOrder) {
+    std::array<int, 3> order{0, 1, 2};
+    do {
+        World world;
+        const Entity e = world.create();
+        for (const int part : order) {
+            EXPECT_FALSE(world.isBody(e));
+            if (part == 0) world.add(e, Transform{{3, 4}});
+            if (part == 1) world.add(e, BoxCollider{{5, 6}});
+            if (part == 2) world.add(e, PhysicsBody{.velocity = {7, 8}, .mass = 9});
+        }
+        ASSERT_TRUE(world.isBody(e));
+        EXPECT_EQ(world.movingCount(), 1u);
+        EXPECT_EQ(world.get<Transform>(e).position, Vec2(3, 4));
+        EXPECT_EQ(world.get<BoxCollider>(e).size, Vec2(5, 6));
+        EXPECT_EQ(world.get<PhysicsBody>(e).velocity, Vec2(7, 8));
+        EXPECT_EQ(world.get<PhysicsBody>(e).mass, 9);
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+template <class Removed, class Kept1, class Kept2>
+void expectDissolvesWithout() {
+    World world;
+    const Entity e = makeBody(world, {3, 4}, {.velocity = {7, 8}, .mass = 9});
+    const Entity other = makeBody(world, {30, 40});
+    world.remove<Removed>(e);
+    EXPECT_FALSE(world.isBody(e));
+    EXPECT_FALSE(world.has<Removed>(e));
+    EXPECT_TRUE(world.has<Kept1>(e));
+    EXPECT_TRUE(world.has<Kept2>(e));
+    EXPECT_EQ(world.movingCount(), 1u);
+    EXPECT_EQ(world.get<Transform>(other).position, Vec2(30, 40));
+    if (world.has<Transform>(e)) {
+        EXPECT_EQ(world.get<Transform>(e).position, Vec2(3, 4));
+    }
+    if (world.has<PhysicsBody>(e)) {
+        EXPECT_EQ(world.get<PhysicsBody>(e).mass, 9);
+    }
+    world.add(e, Removed{});
+    EXPECT_TRUE(world.isBody(e));
+    EXPECT_EQ(world.movingCount(), 2u);
+}
+
+TEST(Body, DissolvesWhenAComponentIsRemovedAndKeepsTheOthers) {
+    expectDissolvesWithout<Transform, BoxCollider, PhysicsBody>();
+    expectDissolvesWithout<BoxCollider, Transform, PhysicsBody>();
+    expectDissolvesWithout<PhysicsBody, Transform, BoxCollider>();
+}
+
+TEST(Body, AddingAllThreeReplacesWhatWasThereAndTakesOtherComponentsAlong) {
+    World world;
+    const Entity e = world.create();
+    world.add(e, Transform{{1, 1}});
+    world.add(e, PhysicsBody{}, Health{5}, Transform{{2, 2}}, BoxCollider{});
+    EXPECT_EQ(world.get<Health>(e).points, 5);
+    EXPECT_EQ(world.get<Transform>(e).position, Vec2(2, 2));
+    world.add(e, Transform{{3, 3}}, BoxCollider{}, PhysicsBody{.mass = 2});
+    EXPECT_EQ(world.movingCount(), 1u);
+    EXPECT_EQ(world.get<Transform>(e).position, Vec2(3, 3));
+    EXPECT_EQ(world.get<PhysicsBody>(e).mass, 2);
+}
+
+TEST(Body, OrderOfCreationIsKeptWhenBodiesInTheMiddleAreDestroyed) {
+    World world;
+    std::vector<Entity> e;
+    for (int i = 0; i < 8; ++i) e.push_back(makeBody(world, {double(i), 0}, {.mass = 1.0 + i}));
+    const Entity wallA = makeBody(world, {-1, 0}, {.isStatic = true});
+    const Entity wallB = makeBody(world, {-2, 0}, {.isStatic = true});
+    world.destroy(e[1]);
+    world.destroy(wallA);
+    world.destroy(e[4]);
+    world.flush();
+    EXPECT_EQ(movingEntities(world), (std::vector<std::uint32_t>{0, 2, 3, 5, 6, 7}));
+    EXPECT_EQ(world.staticCount(), 1u);
+    EXPECT_EQ(world.get<Transform>(wallB).position, Vec2(-2, 0));
+    for (const int i : {0, 2, 3, 5, 6, 7}) {
+        const Entity entity = e[static_cast<std::size_t>(i)];
+        EXPECT_EQ(world.get<Transform>(entity).position.x(), i);
+        EXPECT_EQ(world.get<PhysicsBody>(entity).mass, 1 + i);
+    }
+    const Entity reused = makeBody(world, {9, 0});
+    EXPECT_LT(reused.index, 8u) << "an index is taken again, but the newest body stands last";
+    EXPECT_EQ(movingEntities(world).back(), reused.index);
+}
+
+TEST(Body, SwitchesBetweenStaticAndMoving) {
+    World world;
+    const Entity e = makeBody(world, {3, 4}, {.velocity = {1, 0}, .mass = 5});
+    makeBody(world, {30, 40});
+    world.set(e, PhysicsBody{.isStatic = true});
+    EXPECT_EQ(world.movingCount(), 1u);
+    EXPECT_EQ(world.staticCount(), 1u);
+    EXPECT_TRUE(world.get<PhysicsBody>(e).isStatic);
+    EXPECT_EQ(world.get<PhysicsBody>(e).velocity, Vec2(0, 0));
+    EXPECT_EQ(world.get<Transform>(e).position, Vec2(3, 4));
+    world.set(e, Transform{{5, 6}});
+    world.set(e, BoxCollider{{7, 8}});
+    world.set(e, PhysicsBody{.velocity = {2, 3}, .mass = 4});
+    EXPECT_EQ(world.movingCount(), 2u);
+    EXPECT_EQ(world.staticCount(), 0u);
+    EXPECT_EQ(world.get<Transform>(e).position, Vec2(5, 6));
+    EXPECT_EQ(world.get<BoxCollider>(e).size, Vec2(7, 8));
+    EXPECT_EQ(world.get<PhysicsBody>(e).velocity, Vec2(2, 3));
+    EXPECT_EQ(world.get<PhysicsBody>(e).mass, 4);
+}
+
+// ---- columns
+
+TEST(Column, StaysOneNumberWhileAllRowsAgree) {
+    Column<double> column;
+    for (int i = 0; i < 100; ++i) column.push_back(3);
+    column.set(50, 3);
+    EXPECT_TRUE(column.view().uniform());
+    EXPECT_EQ(column.view().common, 3);
+    EXPECT_EQ(column.size(), 100u);
+    EXPECT_EQ(column.bytes(), 0u);
+    column.shrink(0);
+    column.push_back(8);
+    EXPECT_TRUE(column.view().uniform());
+    EXPECT_EQ(column[0], 8);
+}
+
+TEST(Column, ExpandsAtTheFirstValueThatDiffers) {
+    Column<double> pushed;
+    for (const double value : {3, 3, 4, 3}) pushed.push_back(value);
+    Column<double> set;
+    for (int i = 0; i < 4; ++i) set.push_back(3);
+    set.set(2, 4);
+    for (const auto* column : {&pushed, &set}) {
+        const auto view = column->view();
+        ASSERT_FALSE(view.uniform());
+        ASSERT_EQ(view.values.size(), 4u);
+        EXPECT_EQ(column->size(), 4u);
+        for (const std::size_t row : {0u, 1u, 3u}) EXPECT_EQ(view[row], 3);
+        EXPECT_EQ(view[2], 4);
+        EXPECT_EQ((*column)[2], 4);
+    }
+    pushed.move(2, 0);
+    pushed.shrink(2);
+    EXPECT_EQ(pushed.size(), 2u);
+    EXPECT_EQ(pushed[0], 4);
+    EXPECT_EQ(pushed[1], 3);
+}
+
+TEST(Body, SizesAndMassesThatAllShareAreOneNumberUntilOneDiffers) {
+    World world;
+    std::vector<Entity> e;
+    for (int i = 0; i < 3; ++i) e.push_back(makeBody(world, {double(i), 0}, {.mass = 5}));
+    {
+        const auto m = world.bodies<double>().moving;
+        EXPECT_TRUE(m.halfWidth.uniform() && m.halfHeight.uniform() && m.mass.uniform());
+        EXPECT_EQ(m.halfWidth.common, 1);
+        EXPECT_EQ(m.halfHeight.common, 2);
+        EXPECT_EQ(m.mass.common, 5);
+    }
+    world.set(e[1], BoxCollider{{2, 6}});
+    world.set(e[2], PhysicsBody{.mass = 7});
+    const auto m = world.bodies<double>().moving;
+    EXPECT_TRUE(m.halfWidth.uniform());
+    EXPECT_FALSE(m.halfHeight.uniform());
+    EXPECT_FALSE(m.mass.uniform());
+    EXPECT_EQ(world.get<BoxCollider>(e[0]).size, Vec2(2, 4));
+    EXPECT_EQ(world.get<BoxCollider>(e[1]).size, Vec2(2, 6));
+    EXPECT_EQ(world.get<PhysicsBody>(e[1]).mass, 5);
+    EXPECT_EQ(world.get<PhysicsBody>(e[2]).mass, 7);
+}
+
+TEST(Body, EveryEditFromOutsideChangesTheRevision) {
+    World world;
+    auto revision = world.bodies<double>().revision;
+    const auto expectNew = [&](const char* what) {
+        EXPECT_NE(world.bodies<double>().revision, revision) << what;
+        revision = world.bodies<double>().revision;
+    };
+    const Entity e = makeBody(world, {0, 0});
+    expectNew("created");
+    world.set(e, Transform{{1, 1}});
+    expectNew("moved");
+    world.set(e, BoxCollider{{3, 3}});
+    expectNew("resized");
+    world.set(e, PhysicsBody{.mass = 2});
+    expectNew("other mass");
+    world.set(e, PhysicsBody{.isStatic = true});
+    expectNew("made static");
+    world.remove<Transform>(e);
+    expectNew("dissolved");
+    world.add(e, Transform{});
+    expectNew("formed");
+    world.destroy(e);
+    world.flush();
+    expectNew("destroyed");
+}
+
+// ---- precision
+
+TEST(Precision, RoundTripKeepsValuesThatFloatHolds) {
+    World world;
+    const Entity wall = makeBody(world, {-8, 0.25}, {.isStatic = true}, {0.5, 100});
+    const Entity a = makeBody(world, {0.5, -3}, {.velocity = {0.125, 60}, .mass = 1.5});
+    const Entity b = makeBody(world, {1024, 7}, {.mass = 2}, {3, 5});
+    const auto hash = stateHash(world);
+    world.setPrecision(Precision::Float);
+    EXPECT_EQ(world.precision(), Precision::Float);
+    EXPECT_THROW(world.bodies<double>(), Error);
+    EXPECT_EQ(world.bodies<float>().size(), 3u);
+    EXPECT_EQ(world.get<PhysicsBody>(a).mass, 1.5);
+    EXPECT_EQ(world.get<Transform>(wall).position, Vec2(-8, 0.25));
+    world.setPrecision(Precision::Double);
+    EXPECT_THROW(world.bodies<float>(), Error);
+    EXPECT_EQ(stateHash(world), hash);
+    EXPECT_EQ(world.get<PhysicsBody>(a).velocity, Vec2(0.125, 60));
+    EXPECT_EQ(world.get<BoxCollider>(b).size, Vec2(3, 5));
+    EXPECT_EQ(world.get<BoxCollider>(wall).size, Vec2(0.5, 100));
+}
+
+TEST(Precision, NarrowingRoundsToNearest) {
+    World world;
+    const Entity e = makeBody(world, {0.1, 1.0 / 3});
+    world.setPrecision(Precision::Float);
+    EXPECT_EQ(world.get<Transform>(e).position, Vec2(0.1f, 1.0f / 3));
+}
+
+TEST(Precision, ValuesThatDoNotFitFloatAreRefusedAndTheWorldStaysAsItIs) {
+    struct Case {
+        const char* word;
+        Vec2 position{0, 0};
+        PhysicsBody body{};
+        Vec2 size{1, 1};
+    };
+    for (const Case& c :
+         {Case{.word = "position", .position = {1e39, 0}},
+          Case{.word = "position", .position = {0, -1e39}, .body = {.isStatic = true}},
+          Case{.word = "velocity", .body = {.velocity = {0, 1e39}}},
+          Case{.word = "mass", .body = {.mass = 1e39}},
+          Case{.word = "mass", .body = {.mass = 1e-60}}, Case{.word = "size", .size = {1e-60, 1}},
+          Case{.word = "size", .body = {.isStatic = true}, .size = {1, 1e39}}}) {
+        SCOPED_TRACE(c.word);
+        World world;
+        makeBody(world, {1, 1});
+        makeBody(world, c.position, c.body, c.size);
+        const auto hash = stateHash(world);
+        const std::string error = errorOf([&] { world.setPrecision(Precision::Float); });
+        EXPECT_NE(error.find(c.word), std::string::npos) << error;
+        EXPECT_EQ(world.precision(), Precision::Double);
+        EXPECT_EQ(stateHash(world), hash);
+        EXPECT_EQ(world.movingCount() + world.staticCount(), 2u);
+    }
+}
+
+}  // namespace
+}  // namespace quadrille
