@@ -5,15 +5,16 @@ if(MSVC)
   target_compile_options(quadrille_compiler INTERFACE /W4 /fp:precise)
 else()
   # No contraction: a fused multiply-add rounds once where the contract says twice.
-  target_compile_options(quadrille_compiler INTERFACE
+  target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
-    -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd)
+    -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd>)
 endif()
 if(QUADRILLE_NATIVE AND NOT MSVC)
-  target_compile_options(quadrille_compiler INTERFACE -march=native)
+  target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=native>)
 endif()
 if(QUADRILLE_WARNINGS_AS_ERRORS)
-  target_compile_options(quadrille_compiler INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
+  target_compile_options(quadrille_compiler INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:$<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>>)
 endif()
 if(QUADRILLE_SANITIZE)
   target_compile_options(quadrille_compiler INTERFACE

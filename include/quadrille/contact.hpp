@@ -14,12 +14,12 @@ enum class Axis : std::uint8_t { X = 1, Y = 2, Both = 3 };
 /// the other moving body or a static one.
 struct Contact {
     Entity a, b;
-    double time = 0;         ///< s since the start of the run
+    double time = 0;  ///< s since the start of the run
     Axis axis = Axis::X;
-    Vec2 normal{0, 0};       ///< from a to b; its components are -1, 0 or 1
-    bool collided = false;   ///< the bodies approached and exchanged an impulse
-    std::int64_t rowA = 0;   ///< position of `a` among the moving bodies, in order of creation
-    std::int64_t rowB = 0;   ///< the same of `b`; a static body k is -1 - k
+    Vec2 normal{0, 0};      ///< from a to b; its components are -1, 0 or 1
+    bool collided = false;  ///< the bodies approached and exchanged an impulse
+    std::int64_t rowA = 0;  ///< position of `a` among the moving bodies, in order of creation
+    std::int64_t rowB = 0;  ///< the same of `b`; a static body k is -1 - k
 };
 
 }  // namespace quadrille

@@ -62,10 +62,10 @@ struct CellCoordinates {
     std::uint8_t shift = 0;
 };
 
-/// Cells in compressed sparse rows: cell c holds bodies[offsets[c] .. offsets[c + 1]), moving bodies
-/// by row and static ones after them as movingCount + row. A body stands in every cell that its box
-/// touches. Cells are half-open and those on the border reach to infinity, so each point of the
-/// plane lies in exactly one.
+/// Cells in compressed sparse rows: cell c holds bodies[offsets[c] .. offsets[c + 1]), moving
+/// bodies by row and static ones after them as movingCount + row. A body stands in every cell that
+/// its box touches. Cells are half-open and those on the border reach to infinity, so each point of
+/// the plane lies in exactly one.
 struct Cells {
     std::vector<std::uint32_t> offsets{0};
     std::vector<std::uint32_t> bodies;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -13,7 +14,8 @@ class Random {
 
     /// Uniform in [low, high), in steps of 2^-53 of the range.
     double uniform(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+        const double value = low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+        return value < high ? value : std::nextafter(high, low);  // the sum may round up to high
     }
 
     /// Uniform integer in [low, high], by rejection.
@@ -23,7 +25,7 @@ class Random {
         const std::uint64_t reject = (0 - range) % range;
         std::uint64_t bits = engine_();
         while (bits < reject) bits = engine_();
-        return low + static_cast<std::int64_t>(bits % range);
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(low) + bits % range);
     }
 
     /// -1 or +1.

@@ -11,9 +11,9 @@
 namespace quadrille {
 
 struct SceneOptions {
-    std::optional<std::uint64_t> entities;  ///< replaces the count of the first spawn group
-    std::optional<std::uint64_t> seed;      ///< replaces the scene's
-    bool renderers = false;                 ///< give the bodies a RectangleRenderer
+    std::optional<std::uint64_t> entities = {};  ///< replaces the count of the first spawn group
+    std::optional<std::uint64_t> seed = {};      ///< replaces the scene's
+    bool renderers = false;                      ///< give the bodies a RectangleRenderer
 };
 
 /// A scene that is ready to run.

@@ -26,9 +26,9 @@ std::string_view name(ResolverKind resolver);
 
 /// What a scene says about its steps.
 struct StepSettings {
-    double dt = 1.0 / 60;     ///< s
-    Vec2 gravity{0, 0};       ///< px/s^2
-    double restitution = 1;   ///< in [0, 1]
+    double dt = 1.0 / 60;    ///< s
+    Vec2 gravity{0, 0};      ///< px/s^2
+    double restitution = 1;  ///< in [0, 1]
 };
 
 struct SimulationConfig {
@@ -36,10 +36,11 @@ struct SimulationConfig {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
-    double dt = 1.0 / 60;    ///< s
-    Vec2 gravity{0, 0};      ///< px/s^2
-    double restitution = 1;  ///< in [0, 1]
-    bool profile = false;    ///< measure the phases of each step
+    double dt = 1.0 / 60;           ///< s
+    Vec2 gravity{0, 0};             ///< px/s^2
+    double restitution = 1;         ///< in [0, 1]
+    bool profile = false;           ///< measure the phases of each step
+    bool countMissedPairs = false;  ///< compare the broad phase with a complete one in each step
 };
 
 /// The phases of a step, in the order in which they run.
@@ -52,6 +53,8 @@ struct StepReport {
     std::uint64_t collisions = 0;   ///< contacts that exchanged an impulse
     std::uint64_t pairsTested = 0;  ///< pairs whose boxes were compared
     bool rebuilt = false;           ///< the partition was built in this step
+    std::uint64_t missedPairs = 0;  ///< only with SimulationConfig::countMissedPairs
+    double auditSeconds = 0;        ///< what counting them took
     std::array<double, phaseCount> phaseSeconds{};  ///< only with SimulationConfig::profile
 };
 

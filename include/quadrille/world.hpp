@@ -9,6 +9,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <typeindex>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -172,14 +173,16 @@ class World {
     std::array<Entity, 4> addWalls(WallsConfig walls = {});
 
     bool isBody(Entity entity) const {
-        return entity.index < slots_.size() && slots_[entity.index] != Entity::none;
+        return entity.index < slots_.size() && slots_[entity.index] != Entity::none &&
+               generations_[entity.index] == entity.generation;
     }
     std::size_t movingCount() const;
     std::size_t staticCount() const;
 
     Precision precision() const { return static_cast<Precision>(columns_.index()); }
 
-    /// Converts all body columns; narrowing rounds to nearest. Throws Error if a value does not fit.
+    /// Converts all body columns; narrowing rounds to nearest. Throws Error if a value does not
+    /// fit.
     void setPrecision(Precision precision);
 
     /// Throws Error if the world has the other precision.
@@ -214,19 +217,16 @@ class World {
     static constexpr std::uint32_t staticBit = 0x8000'0000u;
 
     template <class C>
-    static constexpr char poolKey = 0;
-
-    template <class C>
     Pool<C>* findPool() const {
         for (const auto& [key, pool] : pools_) {
-            if (key == &poolKey<C>) return static_cast<Pool<C>*>(pool.get());
+            if (key == typeid(C)) return static_cast<Pool<C>*>(pool.get());
         }
         return nullptr;
     }
     template <class C>
     Pool<C>& pool() {
         if (auto* found = findPool<C>()) return *found;
-        pools_.emplace_back(&poolKey<C>, std::make_unique<Pool<C>>());
+        pools_.emplace_back(typeid(C), std::make_unique<Pool<C>>());
         return static_cast<Pool<C>&>(*pools_.back().second);
     }
 
@@ -303,12 +303,12 @@ class World {
     std::vector<bool> dead_;                  // destroyed or free
     std::vector<std::uint32_t> slots_;        // row in the columns, with staticBit, or none
     std::vector<std::uint32_t> free_;
-    std::vector<Entity> condemned_;           // destroyed since the last flush
+    std::vector<Entity> condemned_;  // destroyed since the last flush
     std::size_t alive_ = 0;
 
     std::variant<Columns<double>, Columns<float>> columns_;
     std::uint64_t revision_ = 0;
-    std::vector<std::pair<const void*, std::unique_ptr<PoolBase>>> pools_;
+    std::vector<std::pair<std::type_index, std::unique_ptr<PoolBase>>> pools_;
 };
 
 /// The components of a name, for snapshots and inspection.

@@ -59,9 +59,10 @@ template <class Real>
 class CellWalk {
   public:
     /// Finds every pair whose boxes overlap when `inflation` is added to the sums of their half
-    /// extents; from a complete partition, each pair once. Moving bodies come as `onMoving(a, others,
-    /// hits)`: body `a` overlaps others[l] for each set bit l of `hits`, which may be none.
-    /// Pairs with static bodies come as `onStatic(StaticPair)`. Returns the number of pairs compared.
+    /// extents; from a complete partition, each pair once. Moving bodies come as `onMoving(a,
+    /// others, hits)`: body `a` overlaps others[l] for each set bit l of `hits`, which may be none.
+    /// Pairs with static bodies come as `onStatic(StaticPair)`. Returns the number of pairs
+    /// compared.
     template <class Sizes, class OnMoving, class OnStatic>
     std::uint64_t walk(const BodyView<Real>& bodies, const Partition<Real>& partition,
                        const Sizes& sizes, Real inflation, OnMoving&& onMoving,
@@ -80,9 +81,10 @@ class CellWalk {
             gather(bodies, sizes, partition, c, members.first(moving));
             for (std::size_t i = 0; i + 1 < moving; ++i) {
                 const Box box{x_[i], y_[i], width_[i] + inflation, height_[i] + inflation};
-                forEachBlock(box, crossedEdges(i), i + 1, moving, [&](std::size_t start, Bits hits) {
-                    onMoving(members[i], members.data() + start, hits);
-                });
+                forEachBlock(box, crossedEdges(i), i + 1, moving,
+                             [&](std::size_t start, Bits hits) {
+                                 onMoving(members[i], members.data() + start, hits);
+                             });
             }
             for (std::size_t k = moving; k < members.size(); ++k) {
                 const std::uint32_t row = members[k] - movingCount;
@@ -116,7 +118,8 @@ class CellWalk {
     };
 
     CrossedEdges crossedEdges(std::size_t i) const {
-        return {(left_[i / block] >> i % block & 1) != 0, (below_[i / block] >> i % block & 1) != 0};
+        return {(left_[i / block] >> i % block & 1) != 0,
+                (below_[i / block] >> i % block & 1) != 0};
     }
 
     /// Calls `function(start, hits)` for each block of gathered boxes from `first` to `last`: bit l

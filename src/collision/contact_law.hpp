@@ -6,7 +6,8 @@
 #include "collision/host_device.hpp"
 
 /// The geometry of a pair of boxes and what a contact does to them, for host and device alike.
-/// Only + - * / and comparisons, so that every IEEE machine without contraction gives the same bits.
+/// Only + - * / and comparisons, so that every IEEE machine without contraction gives the same
+/// bits.
 
 namespace quadrille {
 
@@ -27,11 +28,11 @@ inline constexpr std::uint8_t axisY = 2;
 /// When and how the boxes of a pair met, seen from the end of a step in which they overlap.
 template <class Real>
 struct Impact {
-    Real since;            ///< time from impact to the end of the step, s; 0 for old overlaps
-    std::uint8_t axes;     ///< axisX, axisY or both at a corner
-    bool overlapBefore;    ///< the boxes overlapped when the step began
-    std::int8_t senseX;    ///< +1 if b lies to the right of a
-    std::int8_t senseY;    ///< +1 if b lies above a
+    Real since;          ///< time from impact to the end of the step, s; 0 for old overlaps
+    std::uint8_t axes;   ///< axisX, axisY or both at a corner
+    bool overlapBefore;  ///< the boxes overlapped when the step began
+    std::int8_t senseX;  ///< +1 if b lies to the right of a
+    std::int8_t senseY;  ///< +1 if b lies above a
 };
 
 /// Impact of boxes a and b that overlap at the end of a step. (dx, dy) = centre of b - centre of a

@@ -21,9 +21,9 @@ struct FineRange {
 /// cannot make two bodies disagree about a border.
 template <class Real>
 struct FineGrid {
-    Real lowX, lowY;        ///< px
-    Real perX, perY;        ///< fine cells per px
-    Real lastX, lastY;      ///< highest cell number
+    Real lowX, lowY;    ///< px
+    Real perX, perY;    ///< fine cells per px
+    Real lastX, lastY;  ///< highest cell number
 
     FineGrid(const Vec2& origin, const Vec2& cell, std::uint32_t columns, std::uint32_t rows)
         : lowX(static_cast<Real>(origin.x())),
@@ -45,10 +45,9 @@ struct FineGrid {
         constexpr Real eps = 4 * std::numeric_limits<Real>::epsilon();
         const Real reachX = halfWidth + eps * (std::abs(x) + halfWidth - lowX);
         const Real reachY = halfHeight + eps * (std::abs(y) + halfHeight - lowY);
-        return {coordinate(x - reachX, lowX, perX, lastX),
-                coordinate(y - reachY, lowY, perY, lastY),
-                coordinate(x + reachX, lowX, perX, lastX),
-                coordinate(y + reachY, lowY, perY, lastY)};
+        return {
+            coordinate(x - reachX, lowX, perX, lastX), coordinate(y - reachY, lowY, perY, lastY),
+            coordinate(x + reachX, lowX, perX, lastX), coordinate(y + reachY, lowY, perY, lastY)};
     }
 
     /// Ranges of all bodies, moving ones first, with every box inflated by `margin` on each side.

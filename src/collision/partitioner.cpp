@@ -12,10 +12,14 @@ namespace quadrille {
 
 std::string name(const PartitionerConfig& config) {
     switch (config.index()) {
-        case 0: return "brute-force";
-        case 1: return "static-grid";
-        case 2: return "quadtree";
-        default: return "semi-static-quadtree";
+        case 0:
+            return "brute-force";
+        case 1:
+            return "static-grid";
+        case 2:
+            return "quadtree";
+        default:
+            return "semi-static-quadtree";
     }
 }
 
@@ -59,7 +63,6 @@ std::unique_ptr<Partitioner<Real>> makePartitioner(const PartitionerConfig& conf
 
 template std::unique_ptr<Partitioner<double>> makePartitioner(const PartitionerConfig&,
                                                               const Vec2&);
-template std::unique_ptr<Partitioner<float>> makePartitioner(const PartitionerConfig&,
-                                                             const Vec2&);
+template std::unique_ptr<Partitioner<float>> makePartitioner(const PartitionerConfig&, const Vec2&);
 
 }  // namespace quadrille

@@ -44,8 +44,8 @@ class QuadtreeBuilder {
     std::unique_ptr<Reference[]> root_;
     std::size_t rootCapacity_ = 0;
     std::array<Level, 16> levels_;
-    Cells* cells_ = nullptr;      // being built
-    std::size_t entries_ = 0;     // in cells_->bodies
+    Cells* cells_ = nullptr;   // being built
+    std::size_t entries_ = 0;  // in cells_->bodies
 };
 
 /// A quadtree that is built anew each step.

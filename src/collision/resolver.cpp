@@ -11,19 +11,26 @@ namespace quadrille {
 
 std::string_view name(Law law) {
     switch (law) {
-        case Law::Baseline: return "baseline";
-        case Law::Impulse: return "impulse";
-        case Law::Continuous: return "continuous";
+        case Law::Baseline:
+            return "baseline";
+        case Law::Impulse:
+            return "impulse";
+        case Law::Continuous:
+            return "continuous";
     }
     return "";
 }
 
 std::string_view name(ResolverKind resolver) {
     switch (resolver) {
-        case ResolverKind::Sequential: return "sequential";
-        case ResolverKind::Threads: return "threads";
-        case ResolverKind::Cuda: return "cuda";
-        case ResolverKind::CudaResident: return "cuda-resident";
+        case ResolverKind::Sequential:
+            return "sequential";
+        case ResolverKind::Threads:
+            return "threads";
+        case ResolverKind::Cuda:
+            return "cuda";
+        case ResolverKind::CudaResident:
+            return "cuda-resident";
     }
     return "";
 }
@@ -34,9 +41,12 @@ std::unique_ptr<Resolver<Real>> makeResolver(ResolverKind kind, Law law) {
         throw NotAvailable("the resolver '" + std::string(name(kind)) + "' is not available yet");
     }
     switch (law) {
-        case Law::Baseline: return std::make_unique<SequentialBaseline<Real>>();
-        case Law::Impulse: return std::make_unique<SequentialImpulse<Real>>();
-        case Law::Continuous: break;
+        case Law::Baseline:
+            return std::make_unique<SequentialBaseline<Real>>();
+        case Law::Impulse:
+            return std::make_unique<SequentialImpulse<Real>>();
+        case Law::Continuous:
+            break;
     }
     throw NotAvailable("the law '" + std::string(name(law)) + "' is not available yet");
 }

@@ -32,16 +32,17 @@ double mean(const ColumnView<Real>& column, std::size_t rows) {
     return sum / static_cast<double>(rows);
 }
 
-/// Sum over the cells of bodies^2 / area, 1/px^2: how many neighbours a body has per area, summed
-/// over the bodies.
-double crowding(const Cells& cells) {
+/// Sum over the bodies of the number density around each, 1/px^2. The bodies of a cell are those
+/// whose centres lie in the cell or within half a box of it, where `box` is the mean inflated size.
+double crowding(const Cells& cells, const Vec2& box) {
     double sum = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const double count = cells.offsets[c + 1] - cells.offsets[c];
-        const double side = double(1u << cells.coordinates[c].shift);
-        sum += count * count / (side * side);
+        const Vec2 size = double(1u << cells.coordinates[c].shift) * cells.fineCell;
+        const double density = count / ((size.x() + box.x()) * (size.y() + box.y()));
+        sum += density * density * size.x() * size.y();
     }
-    return sum / (cells.fineCell.x() * cells.fineCell.y());
+    return sum;
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ SemiStaticQuadtreePartitioner<Real>::SemiStaticQuadtreePartitioner(const SemiSta
         this->partition_.complete = false;
     }
     if (const auto* skin = std::get_if<SemiStaticQuadtree::Skin>(&config.rebuild)) {
-        if (!std::isfinite(skin->width) || skin->width < 0) {
+        if (!std::isfinite(static_cast<Real>(skin->width)) || skin->width < 0) {
             throw Error("semi-static quadtree: the skin must be finite and not negative");
         }
     }
@@ -134,25 +135,25 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
 
     const auto& moving = bodies.moving;
     const auto count = static_cast<double>(moving.size());
-    const Cells& cells = this->partition_.cells;
-    const double crowd = crowding(cells);
-    const double width = 2 * mean(moving.halfWidth, moving.size());
-    const double height = 2 * mean(moving.halfHeight, moving.size());
+    const Vec2 size(2 * mean(moving.halfWidth, moving.size()),
+                    2 * mean(moving.halfHeight, moving.size()));
+    const double margin = static_cast<double>(this->partition_.margin);
+    const double crowd = crowding(this->partition_.cells, size + 2 * Vec2(margin, margin));
     // What bodies walked lately counts too: pushing overlaps apart moves them beyond their speed.
     const double travel = std::max(static_cast<double>(fastest(bodies) * dt), walked(bodies));
     double bestCost = 0;
-    double bestMargin = 0;
+    double bestSkin = 0;
     for (int steps = 0; steps <= longest; ++steps) {
-        const double margin = steps == 0 ? 0 : (steps + 0.01) * travel;
-        const double pairs = 2 * (width + 2 * margin) * (height + 2 * margin) * crowd;
+        const double skin = steps == 0 ? 0 : (steps + 0.01) * travel;
+        const double pairs = 2 * (size.x() + 2 * skin) * (size.y() + 2 * skin) * crowd;
         const double cost =
             (buildPrice * count + collectPrice * pairs) / (steps + 1) + testPrice * pairs;
         if (steps == 0 || cost < bestCost) {
             bestCost = cost;
-            bestMargin = margin;
+            bestSkin = skin;
         }
     }
-    return static_cast<Real>(bestMargin);
+    return static_cast<Real>(bestSkin);
 }
 
 template <class Real>

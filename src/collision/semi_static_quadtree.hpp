@@ -27,7 +27,7 @@ class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
     QuadtreeBuilder<Real> builder_;
     std::vector<Real> builtX_, builtY_;  // positions at the last build
     std::uint64_t builtRevision_ = 0;
-    std::uint32_t age_ = 0;              // steps since the last build
+    std::uint32_t age_ = 0;  // steps since the last build
 };
 
 }  // namespace quadrille

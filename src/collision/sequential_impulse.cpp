@@ -46,9 +46,8 @@ bool resolveStaticAxis(std::span<Real> position, std::span<Real> velocity,
                        const StepParameters<Real>& step) {
     AxisState<Real> a{position[c.a], velocity[c.a]};
     const Real since = c.overlapBefore ? Real(0) : step.dt - c.sinceStart;
-    const bool collided =
-        collideStatic(a, fixedPosition, step.restitution, half[c.a] + fixedHalf, sense, since,
-                      c.overlapBefore != 0, gravity);
+    const bool collided = collideStatic(a, fixedPosition, step.restitution, half[c.a] + fixedHalf,
+                                        sense, since, c.overlapBefore != 0, gravity);
     position[c.a] = a.position;
     velocity[c.a] = a.velocity;
     return collided;
@@ -96,22 +95,22 @@ ResolveCounts SequentialImpulse<Real>::resolve(const BodyView<Real>& bodies,
     const std::uint64_t tested = narrowPhase_.find(
         bodies, partition,
         [&](MovingPair p) {
-            const auto impact = impactOf(m.x[p.b] - m.x[p.a], m.y[p.b] - m.y[p.a],
-                                         m.vx[p.b] - m.vx[p.a], m.vy[p.b] - m.vy[p.a],
-                                         m.halfWidth[p.a] + m.halfWidth[p.b],
-                                         m.halfHeight[p.a] + m.halfHeight[p.b], step.dt);
-            contacts_.push_back(
-                pending(impact, step.dt, m.entity[p.a], m.entity[p.b], p.a, p.b));
+            const auto impact =
+                impactOf(m.x[p.b] - m.x[p.a], m.y[p.b] - m.y[p.a], m.vx[p.b] - m.vx[p.a],
+                         m.vy[p.b] - m.vy[p.a], m.halfWidth[p.a] + m.halfWidth[p.b],
+                         m.halfHeight[p.a] + m.halfHeight[p.b], step.dt);
+            contacts_.push_back(pending(impact, step.dt, m.entity[p.a], m.entity[p.b], p.a, p.b));
         },
         [&](StaticPair p) {
-            const auto impact = impactOf(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a],
-                                         -m.vx[p.a], -m.vy[p.a], m.halfWidth[p.a] + f.halfWidth[p.fixed],
-                                         m.halfHeight[p.a] + f.halfHeight[p.fixed], step.dt);
+            const auto impact =
+                impactOf(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a], -m.vx[p.a], -m.vy[p.a],
+                         m.halfWidth[p.a] + f.halfWidth[p.fixed],
+                         m.halfHeight[p.a] + f.halfHeight[p.fixed], step.dt);
             contacts_.push_back(pending(impact, step.dt, m.entity[p.a], f.entity[p.fixed], p.a,
                                         p.fixed | staticBit));
         });
 
-    std::sort(contacts_.begin(), contacts_.end(), before<Real>);
+    sort_(contacts_, step.dt);
     if (!partition.complete) {
         // Cells that are out of date may share a pair more than once.
         const auto same = [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b; };

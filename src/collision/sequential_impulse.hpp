@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "collision/canonical_order.hpp"
+#include "collision/canonical_sort.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/resolver.hpp"
 
@@ -18,12 +19,14 @@ class SequentialImpulse final : public Resolver<Real> {
                           std::vector<ContactRecord>* records) override;
 
     std::size_t bytes() const override {
-        return narrowPhase_.bytes() + contacts_.capacity() * sizeof(PendingContact<Real>);
+        return narrowPhase_.bytes() + sort_.bytes() +
+               contacts_.capacity() * sizeof(PendingContact<Real>);
     }
 
   private:
     NarrowPhase<Real> narrowPhase_;
     std::vector<PendingContact<Real>> contacts_;
+    CanonicalSort<Real> sort_;
 };
 
 }  // namespace quadrille

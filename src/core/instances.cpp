@@ -30,6 +30,8 @@ class InstanceReader {
         if (columns_ == 0) fail(1, 1, "the header must be x,y,vx,vy[,w,h[,mass]]");
     }
 
+    bool hasHeader() const { return columns_ > 0; }
+
     Instance readRow(std::string_view line, std::size_t lineNumber) const {
         std::array<double, 7> values{};
         std::size_t at = 0;
@@ -38,8 +40,7 @@ class InstanceReader {
                 std::from_chars(line.data() + at, line.data() + line.size(), values[i]);
             const auto next = static_cast<std::size_t>(end - line.data());
             if (error != std::errc() || !std::isfinite(values[i])) {
-                fail(lineNumber, at + 1,
-                     std::string(columnNames[i]) + ": must be a finite number");
+                fail(lineNumber, at + 1, std::string(columnNames[i]) + ": must be a finite number");
             }
             if (i >= 4 && !(values[i] > 0)) {
                 fail(lineNumber, at + 1, std::string(columnNames[i]) + ": must be positive");
@@ -87,6 +88,7 @@ std::vector<Instance> readInstances(const std::filesystem::path& file, const Ins
         }
     }
     if (in.bad()) throw SceneError(file.string() + ": cannot be read");
+    if (!reader.hasHeader()) reader.readHeader("");
     return result;
 }
 

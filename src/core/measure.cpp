@@ -1,9 +1,9 @@
-#include <quadrille/measure.hpp>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <type_traits>
+
+#include <quadrille/measure.hpp>
 
 #include "collision/canonical_order.hpp"
 #include "collision/narrow_phase.hpp"
@@ -84,7 +84,8 @@ Overlap overlap(const World& world) {
         partitioner->update(bodies, Real(1));
         Overlap result;
         const auto add = [&](Real dx, Real dy, Real reachX, Real reachY) {
-            const double depth = static_cast<double>(leastPenetration(dx, dy, reachX, reachY).depth);
+            const double depth =
+                static_cast<double>(leastPenetration(dx, dy, reachX, reachY).depth);
             ++result.pairs;
             result.mean += depth;
             result.max = std::max(result.max, depth);

@@ -1,5 +1,3 @@
-#include <quadrille/scene.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
+#include <quadrille/scene.hpp>
 
 #include "core/instances.hpp"
 #include "core/scene_table.hpp"
@@ -85,8 +84,8 @@ void readSpawn(SceneTable table, SceneDescription& scene) {
     }
     group.pattern =
         pattern == "lattice" ? SpawnGroup::Pattern::Lattice : SpawnGroup::Pattern::Uniform;
-    group.count = static_cast<std::uint64_t>(
-        table.require("count", table.integer("count", 0, mostBodies)));
+    group.count =
+        static_cast<std::uint64_t>(table.require("count", table.integer("count", 0, mostBodies)));
     group.region = table.region("region");
 
     const auto size = table.positiveVector("size");

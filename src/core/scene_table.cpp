@@ -31,7 +31,8 @@ std::optional<Vec2> pairOfNumbers(const toml::node& node) {
 std::optional<Color> parseColor(std::string_view text) {
     if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
     std::uint32_t value = 0;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    const auto [end, error] =
+        std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     if (text.size() == 7) value = value << 8 | 0xff;
     return Color{static_cast<std::uint8_t>(value >> 24), static_cast<std::uint8_t>(value >> 16),

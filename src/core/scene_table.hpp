@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <toml++/toml.h>
 #include <vector>
 
 #include <quadrille/components.hpp>
 #include <quadrille/vec2.hpp>
-#include <toml++/toml.h>
 
 namespace quadrille {
 

@@ -1,13 +1,13 @@
-#include <quadrille/simulation.hpp>
-
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include <quadrille/error.hpp>
+#include <quadrille/simulation.hpp>
 
 #include "core/stepper.hpp"
 
@@ -23,10 +23,16 @@ void validate(const SimulationConfig& config) {
     if (!std::isfinite(config.dt) || !(config.dt > 0)) {
         throw Error("simulation: dt must be finite and positive");
     }
-    if (config.precision == Precision::Float && !(static_cast<float>(config.dt) > 0)) {
-        throw Error("simulation: dt vanishes in single precision");
-    }
     if (!config.gravity.allFinite()) throw Error("simulation: gravity must be finite");
+    if (config.precision == Precision::Float) {
+        const auto dt = static_cast<float>(config.dt);
+        if (!std::isfinite(dt) || !(dt > 0)) {
+            throw Error("simulation: dt does not fit single precision");
+        }
+        if (!config.gravity.cast<float>().allFinite()) {
+            throw Error("simulation: gravity does not fit single precision");
+        }
+    }
     if (!(config.restitution >= 0 && config.restitution <= 1)) {
         throw Error("simulation: restitution must be from 0 to 1");
     }
@@ -48,14 +54,16 @@ struct Simulation::Impl {
     StepReport report;
     std::uint64_t stepsDone = 0;
 
-    std::vector<std::function<void(World&, double)>> systems;
-    std::vector<std::function<void(const Contact&)>> contactListeners;
-    std::vector<std::function<void(const World&, const StepReport&)>> observers;
+    // Deques: a callback may register another one, and must not be moved while it runs.
+    std::deque<std::function<void(World&, double)>> systems;
+    std::deque<std::function<void(const Contact&)>> contactListeners;
+    std::deque<std::function<void(const World&, const StepReport&)>> observers;
     std::vector<ContactRecord> records;
     std::vector<Contact> contacts;
 
     Impl(World w, SimulationConfig c)
-        : world(std::move(w)), config(std::move(c)),
+        : world(std::move(w)),
+          config(std::move(c)),
           stepper(makeStepper(config, world.config().size)) {
         world.setPrecision(config.precision);
     }
@@ -76,7 +84,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 const StepReport& Simulation::step() {
     Impl& s = *impl_;
     s.world.flush();
-    for (const auto& system : s.systems) system(s.world, s.config.dt);
+    for (std::size_t i = 0; i < s.systems.size(); ++i) s.systems[i](s.world, s.config.dt);
     s.world.flush();
 
     const double start = time();
@@ -98,8 +106,9 @@ void Simulation::Impl::collectContacts(double start) {
     contacts.clear();
     world.visitBodies([&](const auto& bodies) {
         const auto entityOf = [&](std::int64_t row) {
-            return world.entityAt(row >= 0 ? bodies.moving.entity[static_cast<std::size_t>(row)]
-                                           : bodies.fixed.entity[static_cast<std::size_t>(-1 - row)]);
+            return world.entityAt(row >= 0
+                                      ? bodies.moving.entity[static_cast<std::size_t>(row)]
+                                      : bodies.fixed.entity[static_cast<std::size_t>(-1 - row)]);
         };
         for (const ContactRecord& record : records) {
             contacts.push_back({.a = entityOf(record.a),
@@ -121,10 +130,10 @@ void Simulation::Impl::notify(double start) {
     if (!records.empty()) {
         collectContacts(start);
         for (const Contact& contact : contacts) {
-            for (const auto& listener : contactListeners) listener(contact);
+            for (std::size_t i = 0; i < contactListeners.size(); ++i) contactListeners[i](contact);
         }
     }
-    for (const auto& observer : observers) observer(world, report);
+    for (std::size_t i = 0; i < observers.size(); ++i) observers[i](world, report);
     world.flush();
     if (config.profile) {
         report.phaseSeconds[static_cast<std::size_t>(Phase::Observe)] =

@@ -1,5 +1,3 @@
-#include <quadrille/snapshot.hpp>
-
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -8,6 +6,7 @@
 
 #include <quadrille/components.hpp>
 #include <quadrille/error.hpp>
+#include <quadrille/snapshot.hpp>
 
 #include "core/snapshot_stream.hpp"
 
@@ -97,6 +96,9 @@ class SnapshotAccess {
         out.numbers(std::vector<std::uint8_t>(world.dead_.begin(), world.dead_.end()));
         out.numbers(world.slots_);
         out.numbers(world.free_);
+        std::vector<std::uint32_t> condemned;
+        for (const Entity entity : world.condemned_) condemned.push_back(entity.index);
+        out.numbers(condemned);
         out.number(static_cast<std::uint8_t>(world.precision()));
         std::visit(
             [&](const auto& columns) {
@@ -125,12 +127,17 @@ class SnapshotAccess {
         world.dead_.assign(dead.begin(), dead.end());
         world.slots_ = in.numbers<std::uint32_t>();
         world.free_ = in.numbers<std::uint32_t>();
+        const auto condemned = in.numbers<std::uint32_t>();
         const std::size_t entities = world.generations_.size();
         if (world.dead_.size() != entities || world.slots_.size() != entities ||
-            world.free_.size() > entities) {
+            world.free_.size() + condemned.size() > entities) {
             in.fail("has entity tables of different lengths");
         }
-        world.alive_ = entities - world.free_.size();
+        for (const std::uint32_t index : condemned) {
+            if (index >= entities) in.fail("has an entity that does not exist");
+            world.condemned_.push_back(world.entityAt(index));
+        }
+        world.alive_ = entities - world.free_.size() - condemned.size();
         if (in.number<std::uint8_t>() == static_cast<std::uint8_t>(Precision::Float)) {
             world.columns_.emplace<World::Columns<float>>();
         }
@@ -185,7 +192,10 @@ class SnapshotAccess {
                 Entity entity;
                 entity.index = in.number<std::uint32_t>();
                 entity.generation = in.number<std::uint32_t>();
-                if (!world.alive(entity)) in.fail("has components of an entity that is not alive");
+                if (entity.index >= world.generations_.size() ||
+                    world.entityAt(entity.index) != entity) {
+                    in.fail("has components of an entity that does not exist");
+                }
                 C component;
                 quadrille::read(in, component);
                 world.pool<C>().put(entity, std::move(component));

@@ -39,6 +39,7 @@ void SnapshotWriter::commit() {
 }
 
 SnapshotReader::SnapshotReader(const std::filesystem::path& file) : file_(file.string()) {
+    if (std::filesystem::is_directory(file)) fail("is a folder");
     std::ifstream in(file, std::ios::binary | std::ios::ate);
     if (!in) fail("cannot be opened");
     const auto size = static_cast<std::size_t>(in.tellg());

@@ -12,7 +12,10 @@ class Lattice {
     Lattice(const Vec2& low, const Vec2& high, std::uint64_t count) : low_(low) {
         const Vec2 extent = high - low;
         const double ideal = std::sqrt(double(count) * extent.x() / extent.y());
-        columns_ = static_cast<std::uint64_t>(std::ceil(ideal < 1 ? 1 : ideal));
+        const double most = double(count);
+        columns_ = static_cast<std::uint64_t>(std::ceil(!(ideal >= 1)  ? 1
+                                                        : ideal < most ? ideal
+                                                                       : most));
         const std::uint64_t rows = (count + columns_ - 1) / columns_;
         pitch_ = Vec2(extent.x() / double(columns_), extent.y() / double(rows));
     }

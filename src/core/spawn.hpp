@@ -27,12 +27,12 @@ struct SpawnGroup {
     Pattern pattern = Pattern::Lattice;
     std::uint64_t count = 0;
     std::optional<std::pair<Vec2, Vec2>> region;  ///< low and high corner, px
-    Vec2 size{1, 1};             ///< px
-    std::optional<Vec2> sides;   ///< squares with sides from x to y, density ~ 1 / side^2
+    Vec2 size{1, 1};                              ///< px
+    std::optional<Vec2> sides;  ///< squares with sides from x to y, density ~ 1 / side^2
     double mass = 1;
     std::optional<double> density;  ///< mass per px^2, instead of `mass`
-    Vec2 speed{0, 0};            ///< each component: random sign x uniform integer in [x, y], px/s
-    double jitter = 0;           ///< lattice places are moved by up to this on each axis, px
+    Vec2 speed{0, 0};   ///< each component: random sign x uniform integer in [x, y], px/s
+    double jitter = 0;  ///< lattice places are moved by up to this on each axis, px
     Color color{};
 };
 

@@ -27,6 +27,11 @@ class PhaseClock {
         last_ = now;
     }
 
+    /// Leaves out what happened since the last phase.
+    void restart() {
+        if (enabled_) last_ = Clock::now();
+    }
+
   private:
     StepReport& report_;
     bool enabled_;
@@ -72,6 +77,9 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
     : parameters_{static_cast<Real>(config.dt), static_cast<Real>(config.gravity.x()),
                   static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)} {
     setPartitioner(config, worldSize);
+    if (config.countMissedPairs) {
+        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(worldSize);
+    }
 }
 
 template <class Real>
@@ -89,6 +97,13 @@ void Stepper<Real>::integrate(const BodyView<Real>& bodies) const {
 }
 
 template <class Real>
+void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, StepReport& report) {
+    const auto start = PhaseClock::Clock::now();
+    report.missedPairs = missedPairs_->count(bodies, partitioner_->partition());
+    report.auditSeconds = std::chrono::duration<double>(PhaseClock::Clock::now() - start).count();
+}
+
+template <class Real>
 void Stepper<Real>::step(World& world, std::vector<ContactRecord>* records, StepReport& report,
                          bool profile) {
     const BodyView<Real> bodies = world.bodies<Real>();
@@ -97,9 +112,14 @@ void Stepper<Real>::step(World& world, std::vector<ContactRecord>* records, Step
     clock.finish(Phase::Integrate);
 
     report.rebuilt = partitioner_->update(bodies, parameters_.dt);
-    // A skin notices a NaN as a body that left its box, so checking at builds sees every one.
-    if (report.rebuilt) requireFinite(bodies);
+    // A skin notices a NaN as a body that left its box, so checking at builds sees every one; a
+    // tree that is kept for so many steps, whatever happens, notices nothing.
+    if (report.rebuilt || !partitioner_->partition().complete) requireFinite(bodies);
     clock.finish(Phase::Partition);
+    if (missedPairs_) {
+        countMissedPairs(bodies, report);
+        clock.restart();
+    }
 
     const ResolveCounts counts =
         resolver_->resolve(bodies, partitioner_->partition(), parameters_, records);

@@ -6,6 +6,7 @@
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
+#include "collision/missed_pairs.hpp"
 #include "collision/partitioner.hpp"
 #include "collision/resolver.hpp"
 
@@ -29,7 +30,10 @@ class Stepper {
   private:
     void integrate(const BodyView<Real>& bodies) const;
 
+    void countMissedPairs(const BodyView<Real>& bodies, StepReport& report);
+
     StepParameters<Real> parameters_;
+    std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
     std::unique_ptr<Resolver<Real>> resolver_;
 };

@@ -1,7 +1,8 @@
-#include <quadrille/world.hpp>
-
+#include <algorithm>
 #include <cmath>
 #include <string>
+
+#include <quadrille/world.hpp>
 
 namespace quadrille {
 
@@ -13,14 +14,28 @@ void requireFinite(Entity entity, const char* what, const Vec2& value) {
     if (!value.allFinite()) throw Error(describe(entity) + ": " + what + " is not finite");
 }
 
+template <class Real>
+bool fits(double value, bool positive) {
+    const auto result = static_cast<Real>(value);
+    return std::isfinite(result) && (!positive || result > 0);
+}
+
 /// Rounds to Real; a value that overflows or vanishes would silently change the body.
 template <class Real>
 Real toReal(double value, const char* what, bool positive = false) {
-    const auto result = static_cast<Real>(value);
-    if (!std::isfinite(result) || (positive && !(result > 0))) {
+    if (!fits<Real>(value, positive)) {
         throw Error(std::string(what) + " does not fit the precision of the world");
     }
-    return result;
+    return static_cast<Real>(value);
+}
+
+void requireFits(Entity entity, const char* what, double value, Precision precision,
+                 bool positive = false) {
+    const bool good = precision == Precision::Double ? fits<double>(value, positive)
+                                                     : fits<float>(value, positive);
+    if (!good) {
+        throw Error(describe(entity) + ": " + what + " does not fit the precision of the world");
+    }
 }
 
 template <class Real>
@@ -106,11 +121,17 @@ void World::throwMissing(Entity entity) const {
 
 void World::validate(Entity entity, const Transform& transform) const {
     requireFinite(entity, "position", transform.position);
+    for (const double value : transform.position) {
+        requireFits(entity, "position", value, precision());
+    }
 }
 
 void World::validate(Entity entity, const BoxCollider& collider) const {
     requireFinite(entity, "size", collider.size);
     if (!(collider.size.minCoeff() > 0)) throw Error(describe(entity) + ": size must be positive");
+    for (const double value : collider.size) {
+        requireFits(entity, "size", value / 2, precision(), true);
+    }
 }
 
 void World::validate(Entity entity, const PhysicsBody& body) const {
@@ -121,6 +142,9 @@ void World::validate(Entity entity, const PhysicsBody& body) const {
     if (body.isStatic && body.velocity != Vec2(0, 0)) {
         throw Error(describe(entity) + ": a static body has no velocity");
     }
+    if (body.isStatic) return;
+    for (const double value : body.velocity) requireFits(entity, "velocity", value, precision());
+    requireFits(entity, "mass", body.mass, precision(), true);
 }
 
 // ---- bodies
@@ -221,6 +245,12 @@ std::array<Entity, 4> World::addWalls(WallsConfig walls) {
                                                          {{inner.x() + t / 2, 0}, side},
                                                          {{0, -inner.y() - t / 2}, flat},
                                                          {{0, inner.y() + t / 2}, flat}}};
+    for (const auto& [centre, size] : boxes) {
+        const double largest = std::max(centre.cwiseAbs().maxCoeff(), size.maxCoeff());
+        const bool good = precision() == Precision::Double ? fits<double>(largest, true)
+                                                           : fits<float>(largest, true);
+        if (!good) throw Error("walls: they do not fit the precision of the world");
+    }
     std::array<Entity, 4> entities;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         entities[i] = create();
@@ -436,16 +466,16 @@ std::size_t World::bytes() const {
     };
     const std::size_t entities =
         size(generations_) + size(slots_) + size(free_) + size(condemned_) + dead_.capacity() / 8;
-    return entities +
-           std::visit(
-               [&](const auto& columns) {
-                   const auto& m = columns.moving;
-                   const auto& f = columns.fixed;
-                   return size(m.x) + size(m.y) + size(m.vx) + size(m.vy) + size(m.entity) +
-                          m.halfWidth.bytes() + m.halfHeight.bytes() + m.mass.bytes() + size(f.x) +
-                          size(f.y) + size(f.halfWidth) + size(f.halfHeight) + size(f.entity);
-               },
-               columns_);
+    return entities + std::visit(
+                          [&](const auto& columns) {
+                              const auto& m = columns.moving;
+                              const auto& f = columns.fixed;
+                              return size(m.x) + size(m.y) + size(m.vx) + size(m.vy) +
+                                     size(m.entity) + m.halfWidth.bytes() + m.halfHeight.bytes() +
+                                     m.mass.bytes() + size(f.x) + size(f.y) + size(f.halfWidth) +
+                                     size(f.halfHeight) + size(f.entity);
+                          },
+                          columns_);
 }
 
 }  // namespace quadrille

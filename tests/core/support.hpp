@@ -5,12 +5,14 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <string>
 #include <system_error>
 
 #include <quadrille/components.hpp>
 #include <quadrille/error.hpp>
+#include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
 namespace quadrille {
@@ -48,6 +50,9 @@ std::string errorOf(Action&& action) {
     }
     return {};
 }
+
+/// How test reports show a precision.
+inline void PrintTo(Precision precision, std::ostream* out) { *out << name(precision); }
 
 /// A folder of its own that goes away with the object.
 class TemporaryFolder {

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace quadrille::app {
+
+/// What the program tells the shell.
+enum ExitCode : int {
+    done = 0,
+    runtimeFailure = 1,
+    usageError = 2,
+    badInput = 3,  ///< scene or snapshot
+    noDevice = 4,
+};
+
+}  // namespace quadrille::app

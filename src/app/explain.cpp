@@ -1,0 +1,69 @@
+#include "app/explain.hpp"
+
+#include <array>
+#include <cstdio>
+#include <ostream>
+#include <string>
+
+#include "app/scene_catalog.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+void row(std::ostream& out, bool modelled, const std::string& what, const std::string& how) {
+    std::array<char, 160> line{};
+    std::snprintf(line.data(), line.size(), "  %-3s  %-22s %s\n", modelled ? "yes" : "no",
+                  what.c_str(), how.c_str());
+    out << line.data();
+}
+
+}  // namespace
+
+void explain(std::ostream& out, const Run& run) {
+    const Simulation& simulation = run.simulation;
+    const SimulationConfig& config = simulation.config();
+    const World& world = simulation.world();
+    const ModelFeatures f = simulation.features();
+    const std::size_t real = config.precision == Precision::Double ? 8 : 4;
+    const auto column = [&](std::size_t count) {
+        return std::to_string(count * real) + " bytes a body";
+    };
+    out << "scene " << run.scene << ": " << world.movingCount() << " moving and "
+        << world.staticCount() << " static bodies, law " << name(config.law) << ", "
+        << name(config.precision) << ", " << name(config.partitioner) << "\n";
+    row(out, f.movingBodies, "position and velocity", column(4));
+    row(out, f.sizesDiffer, "sizes of their own", f.sizesDiffer ? column(2) : "one size for all");
+    row(out, f.massesDiffer, "masses of their own",
+        f.massesDiffer ? column(1) : "one mass for all");
+    row(out, f.staticBodies, "static bodies",
+        f.staticBodies ? "" : "no pair is tested against one");
+    row(out, f.gravity, "gravity", f.gravity ? "" : "velocities change in contacts only");
+    row(out, f.inelastic, "restitution below 1",
+        f.inelastic      ? ""
+        : f.massesDiffer ? ""
+                         : "equal masses swap their velocities");
+    row(out, f.listeners, "contact listeners", f.listeners ? "" : "no list of events is made");
+    row(out, f.profile, "profile", f.profile ? "" : "no clock is read inside a step");
+    row(out, false, "renderer", "headless: no colours are stored");
+    if (world.movingCount() > 0) {
+        std::array<char, 128> line{};
+        std::snprintf(
+            line.data(), line.size(),
+            "  %.1f bytes a body in the world, %.1f in work space before the first step\n",
+            double(world.bytes()) / double(world.movingCount()),
+            double(simulation.workspaceBytes()) / double(world.movingCount()));
+        out << line.data();
+    }
+}
+
+void list(std::ostream& out) {
+    out << "scenes:";
+    for (const std::string& scene : sceneNames()) out << ' ' << scene;
+    out << "\npartitioners: brute-force static-grid quadtree semi-static-quadtree"
+        << "\nresolvers: sequential"
+        << "\nlaws: baseline impulse"
+        << "\nprecisions: double float\n";
+}
+
+}  // namespace quadrille::app

@@ -1,0 +1,67 @@
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <quadrille/error.hpp>
+
+#include "app/exit_code.hpp"
+#include "app/explain.hpp"
+#include "app/headless.hpp"
+#include "app/interrupt.hpp"
+#include "app/options.hpp"
+#include "app/run_setup.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+int run(int argc, char** argv) {
+    const ParsedOptions parsed = parseOptions(argc, argv);
+    if (!parsed.options) return parsed.exitCode;
+    const Options& options = *parsed.options;
+    if (options.list) {
+        list(std::cout);
+        return done;
+    }
+    if (options.explain) {
+        explain(std::cout, setUp(options));
+        return done;
+    }
+    if (!options.headless) {
+        std::cerr << "collisionStress: this build has no window; use --headless\n";
+        return runtimeFailure;
+    }
+    catchInterrupts();
+    runHeadless(setUp(options), options);
+    return done;
+}
+
+int fail(const char* message, int code) {
+    std::cerr << "collisionStress: " << message << '\n';
+    return code;
+}
+
+}  // namespace
+
+}  // namespace quadrille::app
+
+int main(int argc, char** argv) {
+    using namespace quadrille;
+    try {
+        return app::run(argc, argv);
+    } catch (const app::UsageError& error) {
+        return app::fail(error.what(), app::usageError);
+    } catch (const NotAvailable& error) {
+        return app::fail(error.what(), app::usageError);
+    } catch (const app::NoDevice& error) {
+        return app::fail(error.what(), app::noDevice);
+    } catch (const SceneError& error) {
+        return app::fail(error.what(), app::badInput);
+    } catch (const SnapshotError& error) {
+        return app::fail(error.what(), app::badInput);
+    } catch (const std::bad_alloc&) {
+        return app::fail("out of memory", app::runtimeFailure);
+    } catch (const std::exception& error) {
+        return app::fail(error.what(), app::runtimeFailure);
+    }
+}

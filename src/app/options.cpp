@@ -1,0 +1,238 @@
+#include "app/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <string_view>
+
+#include <quadrille/version.hpp>
+
+#include "app/exit_code.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+/// The options as they were typed, where that is not yet what the program needs.
+struct RawOptions {
+    std::string partitioner = "semi-static-quadtree";
+    std::string cellSize = "26,26";
+    int maxDepth = 10;
+    int maxPerCell = 20;
+    std::string rebuild = "skin";
+    std::string law, precision;
+    unsigned threads = 0;
+    bool error = false;
+    std::string screenshot;
+};
+
+double parseNumber(std::string_view text, const char* option) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not a number");
+    }
+    return value;
+}
+
+Vec2 parseCellSize(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    const double width = parseNumber(text.substr(0, comma), "--cell-size");
+    const double height = comma == std::string_view::npos
+                              ? width
+                              : parseNumber(text.substr(comma + 1), "--cell-size");
+    if (!(width > 0 && height > 0)) throw UsageError("--cell-size: must be positive");
+    return {width, height};
+}
+
+decltype(SemiStaticQuadtree::rebuild) parseRebuild(std::string_view text) {
+    if (text == "skin") return SemiStaticQuadtree::Skin{};
+    if (text.starts_with("skin:")) {
+        const double width = parseNumber(text.substr(5), "--rebuild");
+        if (!(width > 0)) throw UsageError("--rebuild: the skin must be positive");
+        return SemiStaticQuadtree::Skin{width};
+    }
+    if (text.starts_with("every:")) {
+        const double frames = parseNumber(text.substr(6), "--rebuild");
+        if (!(frames >= 1 && frames <= 1e9 && frames == std::floor(frames))) {
+            throw UsageError("--rebuild: every:K takes a whole number from 1");
+        }
+        return SemiStaticQuadtree::EveryFrames{static_cast<int>(frames)};
+    }
+    throw UsageError("--rebuild: '" + std::string(text) +
+                     "' is not known; valid: skin, skin:WIDTH, every:K");
+}
+
+PartitionerConfig makePartitionerConfig(const RawOptions& raw) {
+    if (raw.partitioner == "brute-force") return BruteForce{};
+    if (raw.partitioner == "static-grid") return StaticGrid{parseCellSize(raw.cellSize)};
+    if (raw.partitioner == "quadtree") return Quadtree{raw.maxDepth, raw.maxPerCell};
+    return SemiStaticQuadtree{raw.maxDepth, raw.maxPerCell, parseRebuild(raw.rebuild)};
+}
+
+const std::map<std::string, Law> laws = {
+    {"baseline", Law::Baseline}, {"impulse", Law::Impulse}, {"continuous", Law::Continuous}};
+const std::map<std::string, Precision> precisions = {{"double", Precision::Double},
+                                                     {"float", Precision::Float}};
+
+void declare(CLI::App& app, Options& options, RawOptions& raw) {
+    app.set_version_flag("--version",
+                         std::string("collisionStress ") + version + " (" + commit() + ")");
+    app.get_formatter()->column_width(38);
+
+    auto* scene = app.add_option("--scene", options.scene, "A name in scenes/ or a scene file")
+                      ->type_name("NAME|FILE")
+                      ->capture_default_str()
+                      ->group("Scene");
+    auto* entities = app.add_option("--entities", options.entities,
+                                    "Count of the scene's first spawn group (the scene's)")
+                         ->type_name("N")
+                         ->group("Scene");
+    auto* seed = app.add_option("--seed", options.seed, "Random seed (the scene's)")
+                     ->type_name("S")
+                     ->group("Scene");
+    app.add_option("--load", options.load, "Resume from a snapshot")
+        ->type_name("FILE")
+        ->group("Scene")
+        ->excludes(scene)
+        ->excludes(entities)
+        ->excludes(seed);
+    app.add_option("--dt", options.dt, "Length of a step in s (the scene's)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("SECONDS")
+        ->group("Scene");
+    app.add_option("--restitution", options.restitution, "From 0 to 1 (the scene's)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("E")
+        ->group("Scene");
+
+    app.add_option("--partitioner", raw.partitioner,
+                   "brute-force, static-grid, quadtree or semi-static-quadtree")
+        ->check(CLI::IsMember({"brute-force", "static-grid", "quadtree", "semi-static-quadtree"}))
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--cell-size", raw.cellSize, "Cells of the static grid in px")
+        ->type_name("W,H")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--max-depth", raw.maxDepth, "Levels of a quadtree below its root")
+        ->check(CLI::Range(0, 15))
+        ->type_name("D")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--max-per-cell", raw.maxPerCell, "Bodies in a leaf before it splits")
+        ->check(CLI::Range(1, 1'000'000'000))
+        ->type_name("M")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--rebuild", raw.rebuild,
+                   "When the semi-static tree is rebuilt: skin (before a body leaves its inflated "
+                   "box; skin:WIDTH fixes the width in px) or every:K frames (misses pairs)")
+        ->type_name("POLICY")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--resolver", options.resolver,
+                   "auto, sequential, threads, cuda or cuda-resident")
+        ->check(CLI::IsMember({"auto", "sequential", "threads", "cuda", "cuda-resident"}))
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--threads", raw.threads, "Threads of the resolver 'threads' (all cores)")
+        ->type_name("N")
+        ->group("Collisions");
+    app.add_flag("!--no-fallback", options.fallback,
+                 "A resolver that cannot run is an error, not a reason to run the sequential one")
+        ->group("Collisions");
+    app.add_option("--law", raw.law, "baseline, impulse or continuous (impulse)")
+        ->check(CLI::IsMember(laws))
+        ->type_name("NAME")
+        ->group("Collisions");
+    app.add_option("--precision", raw.precision, "double or float (double)")
+        ->check(CLI::IsMember(precisions))
+        ->type_name("NAME")
+        ->group("Collisions");
+
+    app.add_flag("--headless", options.headless, "Run without a window")->group("Run");
+    app.add_option("--frames", options.frames, "Stop after so many frames")
+        ->type_name("N")
+        ->group("Run");
+    app.add_option("--duration", options.duration, "Stop after so many seconds of wall time")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S")
+        ->group("Run");
+    app.add_option("--report-every", options.reportEvery, "Seconds between two reports")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S")
+        ->capture_default_str()
+        ->group("Run");
+    app.add_flag("--profile", options.profile, "Measure the phases of a frame")->group("Run");
+    app.add_flag("--error", raw.error, "Measure the error against the reference")->group("Run");
+
+    app.add_option("--json", options.json, "Write the run's summary ('-' is stdout)")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--csv", options.csv, "Write a row for each frame ('-' is stdout)")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--dump-state", options.dumpState, "Write the final state as CSV")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--dump-events", options.dumpEvents, "Write every collision as CSV")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--save", options.save, "Write a snapshot at the end")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--screenshot", raw.screenshot, "Write the last frame shown as PNG")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_flag("--explain", options.explain,
+                 "Print what the scene makes the engine model, and exit")
+        ->group("Output");
+    app.add_flag("--list", options.list, "List scenes, partitioners, resolvers and laws, and exit")
+        ->group("Output");
+    app.footer(
+        "Results go to stdout, messages to stderr.\n"
+        "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 bad scene or snapshot, 4 no such "
+        "device.");
+}
+
+/// Turns what was typed into what the program needs, and refuses what it cannot do.
+void interpret(Options& options, const RawOptions& raw) {
+    options.partitioner = makePartitionerConfig(raw);
+    if (!raw.law.empty()) options.law = laws.at(raw.law);
+    if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
+    if (raw.threads > 0) throw UsageError("--threads: this version has no threaded resolver yet");
+    if (raw.error) throw UsageError("--error: this version has no reference to compare with yet");
+    if (!raw.screenshot.empty()) throw UsageError("--screenshot: this version has no window yet");
+    int onStdout = 0;
+    for (const std::string* file :
+         {&options.json, &options.csv, &options.dumpState, &options.dumpEvents}) {
+        onStdout += *file == "-";
+    }
+    if (onStdout > 1) throw UsageError("only one output can go to stdout ('-')");
+    if (options.save == "-") throw UsageError("--save: a snapshot cannot go to stdout");
+}
+
+}  // namespace
+
+ParsedOptions parseOptions(int argc, const char* const* argv) {
+    CLI::App app("Runs and measures 2D rigid-box scenes.", "collisionStress");
+    Options options;
+    RawOptions raw;
+    declare(app, options, raw);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+        app.exit(error, std::cout, std::cerr);
+        return {.options = std::nullopt, .exitCode = asked ? done : usageError};
+    }
+    interpret(options, raw);
+    return {.options = std::move(options), .exitCode = done};
+}
+
+}  // namespace quadrille::app

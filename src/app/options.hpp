@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <quadrille/partitioner.hpp>
+#include <quadrille/simulation.hpp>
+
+namespace quadrille::app {
+
+/// A combination of options that makes no sense; ends the program with exit code 2.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The command line, checked.
+struct Options {
+    std::string scene = "balanced";
+    std::optional<std::uint64_t> entities;
+    std::optional<std::uint64_t> seed;
+
+    PartitionerConfig partitioner;
+    std::string resolver = "auto";
+    bool fallback = true;
+    std::optional<Law> law;
+    std::optional<Precision> precision;
+    std::optional<double> dt;
+    std::optional<double> restitution;
+
+    bool headless = false;
+    bool list = false;
+    bool explain = false;
+    bool profile = false;
+    std::optional<std::uint64_t> frames;
+    std::optional<double> duration;  ///< wall s
+    double reportEvery = 5;          ///< wall s
+
+    std::string json, csv, dumpState, dumpEvents;  ///< file names, "-" for stdout, or empty
+    std::string save, load;
+};
+
+/// Either options, or the exit code of a program that has already said what there was to say
+/// (--help, --version, a mistake).
+struct ParsedOptions {
+    std::optional<Options> options;
+    int exitCode = 0;
+};
+
+ParsedOptions parseOptions(int argc, const char* const* argv);
+
+}  // namespace quadrille::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include <quadrille/quadrille.hpp>
+
+#include "app/output_file.hpp"
+
+namespace quadrille::app {
+
+/// Observers that write a run down as CSV.
+
+/// A row a frame.
+class FrameRecorder {
+  public:
+    explicit FrameRecorder(const std::string& file);
+    void record(const Simulation& simulation, const StepReport& report, double milliseconds);
+    void commit() { out_.commit(); }
+
+  private:
+    OutputFile out_;
+};
+
+/// A row for every collision: t,i,j,axis with i, j in order of creation, static bodies counted down
+/// from -1, and axis 1 = x, 2 = y, 3 = both.
+class EventRecorder {
+  public:
+    explicit EventRecorder(const std::string& file);
+    void record(const Contact& contact);
+    void commit() { out_.commit(); }
+
+  private:
+    OutputFile out_;
+};
+
+/// A row for every moving body in order of creation: entity,x,y,vx,vy in the shortest form that
+/// reads back exactly.
+void writeState(const std::string& file, const World& world);
+
+}  // namespace quadrille::app

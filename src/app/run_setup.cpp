@@ -1,0 +1,82 @@
+#include "app/run_setup.hpp"
+
+#include <iostream>
+#include <utility>
+
+#include "app/scene_catalog.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+/// Where a run starts, be it a scene or a snapshot.
+struct Start {
+    std::string scene;
+    std::uint64_t seed;
+    World world;
+    StepSettings step;
+    Law law = Law::Impulse;
+    std::uint64_t stepsDone = 0;
+};
+
+Start loadStart(const Options& options) {
+    if (!options.load.empty()) {
+        Snapshot snapshot = loadSnapshot(options.load);
+        return {.scene = std::move(snapshot.scene),
+                .seed = snapshot.seed,
+                .world = std::move(snapshot.world),
+                .step = snapshot.step,
+                .law = snapshot.law,
+                .stepsDone = snapshot.stepsDone};
+    }
+    Scene scene =
+        loadScene(findScene(options.scene), {.entities = options.entities, .seed = options.seed});
+    return {.scene = std::move(scene.name),
+            .seed = scene.seed,
+            .world = std::move(scene.world),
+            .step = scene.step};
+}
+
+ResolverKind chooseResolver(const Options& options) {
+    if (options.resolver == "auto" || options.resolver == "sequential") {
+        return ResolverKind::Sequential;
+    }
+    const std::string reason = "the resolver '" + options.resolver + "' is not available yet";
+    if (!options.fallback) {
+        if (options.resolver == "threads") throw NotAvailable(reason);
+        throw NoDevice(reason);
+    }
+    std::cerr << "collisionStress: warning: " << reason << "; running 'sequential'\n";
+    return ResolverKind::Sequential;
+}
+
+/// The report's policy misses pairs; how many is part of its result.
+bool missesPairs(const PartitionerConfig& partitioner) {
+    const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
+    return tree != nullptr &&
+           std::holds_alternative<SemiStaticQuadtree::EveryFrames>(tree->rebuild);
+}
+
+}  // namespace
+
+Run setUp(const Options& options) {
+    Start start = loadStart(options);
+    SimulationConfig config;
+    config.partitioner = options.partitioner;
+    config.law = options.law.value_or(start.law);
+    config.precision = options.precision.value_or(start.world.precision());
+    config.resolver = chooseResolver(options);
+    config.dt = options.dt.value_or(start.step.dt);
+    config.gravity = start.step.gravity;
+    config.restitution = options.restitution.value_or(start.step.restitution);
+    config.profile = options.profile;
+    config.countMissedPairs = missesPairs(options.partitioner);
+    Run run{.scene = std::move(start.scene),
+            .seed = start.seed,
+            .requestedResolver = options.resolver,
+            .simulation = Simulation(std::move(start.world), config)};
+    run.simulation.resumeAt(start.stepsDone);
+    return run;
+}
+
+}  // namespace quadrille::app

@@ -1,0 +1,49 @@
+#include "app/scene_catalog.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "app/options.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Scenes lie beside an installed program, or in the source tree of one that was just built.
+fs::path sceneFolder() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (!error) {
+        const fs::path installed = program.parent_path() / QUADRILLE_INSTALLED_SCENES;
+        if (fs::is_directory(installed, error)) return installed;
+    }
+    return QUADRILLE_SOURCE_SCENES;
+}
+
+}  // namespace
+
+std::vector<std::string> sceneNames() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(sceneFolder(), error)) {
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+fs::path findScene(const std::string& nameOrFile) {
+    const fs::path path(nameOrFile);
+    if (path.has_parent_path() || path.extension() == ".toml") return path;
+    const auto names = sceneNames();
+    if (std::find(names.begin(), names.end(), nameOrFile) != names.end()) {
+        return sceneFolder() / (nameOrFile + ".toml");
+    }
+    std::string message = "--scene: '" + nameOrFile + "' is not known; valid: ";
+    for (const std::string& name : names) message += name + ", ";
+    throw UsageError(message + "or the path of a .toml file");
+}
+
+}  // namespace quadrille::app

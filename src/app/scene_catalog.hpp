@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace quadrille::app {
+
+/// The scene files that come with the program, by name.
+std::vector<std::string> sceneNames();
+
+/// The file of a shipped scene, or of a path. Throws UsageError, listing the valid names, if it is
+/// neither a name nor something that looks like a path.
+std::filesystem::path findScene(const std::string& nameOrFile);
+
+}  // namespace quadrille::app

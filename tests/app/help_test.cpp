@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+#include <string>
+
+#include <quadrille/version.hpp>
+
+#include "program.hpp"
+
+namespace quadrille {
+namespace {
+
+TEST(Help, ListsEveryOption) {
+    const ProcessResult result = runProgram({"--help"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* option :
+         {"--scene",     "--entities",     "--seed",         "--partitioner", "--cell-size",
+          "--max-depth", "--max-per-cell", "--rebuild",      "--resolver",    "--threads",
+          "--law",       "--precision",    "--dt",           "--restitution", "--headless",
+          "--frames",    "--duration",     "--report-every", "--profile",     "--error",
+          "--explain",   "--json",         "--csv",          "--dump-state",  "--dump-events",
+          "--save",      "--load",         "--screenshot",   "--no-fallback", "--list",
+          "--version",   "--help"}) {
+        EXPECT_TRUE(contains(result.out, option)) << option;
+    }
+}
+
+TEST(Help, NamesTheValuesOfEnumeratedOptions) {
+    const std::string help = runProgram({"--help"}).out;
+    for (const char* value :
+         {"brute-force", "static-grid", "quadtree", "semi-static-quadtree", "skin", "every:K",
+          "auto", "sequential", "threads", "cuda", "cuda-resident", "baseline", "impulse",
+          "continuous", "double", "float", "balanced", "26,26"}) {
+        EXPECT_TRUE(contains(help, value)) << value;
+    }
+}
+
+TEST(Help, ExplainsTheExitCodes) {
+    const std::string help = runProgram({"--help"}).out;
+    for (const char* text :
+         {"0 done", "1 run-time failure", "2 usage", "3 bad scene", "4 no such"}) {
+        EXPECT_TRUE(contains(help, text)) << text;
+    }
+}
+
+TEST(Version, NamesVersionAndCommit) {
+    const ProcessResult result = runProgram({"--version"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out, std::string("collisionStress ") + version + " (" + commit() + ")\n");
+}
+
+TEST(List, NamesScenesAndChoices) {
+    const ProcessResult result = runProgram({"--list"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* name :
+         {"balanced", "balanced-scaled", "bullet", "cradle", "demo13k", "imbalanced", "mixed-sizes",
+          "pi", "pile", "brute-force", "static-grid", "quadtree", "semi-static-quadtree",
+          "sequential", "baseline", "impulse", "double", "float"}) {
+        EXPECT_TRUE(contains(result.out, name)) << name;
+    }
+}
+
+TEST(Window, IsMissedWithAHint) { expectRefusal({"--scene", "cradle"}, 1, {"--headless"}); }
+
+}  // namespace
+}  // namespace quadrille

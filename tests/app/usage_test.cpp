@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace quadrille {
+namespace {
+
+/// One frame, so that a mistake that is overlooked costs no time.
+const Arguments shortRun = {"--headless", "--frames", "1", "--entities", "10"};
+
+void expectUsageError(const Arguments& arguments, const std::vector<std::string>& words) {
+    expectRefusal(shortRun + arguments, 2, words);
+}
+
+TEST(Usage, UnknownOption) { expectUsageError({"--frobnicate"}, {"--frobnicate"}); }
+
+TEST(Usage, StrayArgument) { expectUsageError({"balanced"}, {"balanced"}); }
+
+TEST(Usage, UnknownPartitionerListsTheValidOnes) {
+    expectUsageError({"--partitioner", "octree"},
+                     {"--partitioner", "octree", "brute-force", "static-grid", "quadtree",
+                      "semi-static-quadtree"});
+}
+
+TEST(Usage, UnknownResolverListsTheValidOnes) {
+    expectUsageError({"--resolver", "fpga"}, {"--resolver", "fpga", "auto", "sequential", "threads",
+                                              "cuda", "cuda-resident"});
+}
+
+TEST(Usage, UnknownLawListsTheValidOnes) {
+    expectUsageError({"--law", "newton"}, {"--law", "newton", "baseline", "impulse", "continuous"});
+}
+
+TEST(Usage, UnknownPrecisionListsTheValidOnes) {
+    expectUsageError({"--precision", "half"}, {"--precision", "half", "double", "float"});
+}
+
+TEST(Usage, UnknownRebuildListsTheValidOnes) {
+    expectUsageError({"--rebuild", "never"}, {"--rebuild", "never", "skin", "every:K"});
+}
+
+TEST(Usage, UnknownSceneListsTheValidOnes) {
+    expectUsageError({"--scene", "balancd"},
+                     {"--scene", "balancd", "balanced", "balanced-scaled", "bullet", "cradle",
+                      "demo13k", "imbalanced", "mixed-sizes", "pi", "pile"});
+}
+
+class ImpossibleValue : public testing::TestWithParam<std::vector<std::string>> {};
+
+/// The option is named, and the message does not drown the reader in digits.
+TEST_P(ImpossibleValue, IsRefused) {
+    const Arguments arguments = shortRun + GetParam();
+    expectRefusal(arguments, 2, {GetParam()[GetParam().size() - 2]});
+    EXPECT_LT(runProgram(arguments).err.size(), 300u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Usage, ImpossibleValue,
+    testing::Values(Arguments{"--dt", "0"}, Arguments{"--dt", "-1"}, Arguments{"--dt", "nan"},
+                    Arguments{"--dt", "inf"}, Arguments{"--dt", "fast"},
+                    Arguments{"--restitution", "1.5"}, Arguments{"--restitution", "-0.1"},
+                    Arguments{"--restitution", "nan"}, Arguments{"--max-depth", "16"},
+                    Arguments{"--max-depth", "-1"}, Arguments{"--max-per-cell", "0"},
+                    Arguments{"--cell-size", "0,3"}, Arguments{"--cell-size", "3,-3"},
+                    Arguments{"--cell-size", "3x3"}, Arguments{"--cell-size", "1,2,3"},
+                    Arguments{"--cell-size", "nan"},
+                    Arguments{"--partitioner", "static-grid", "--cell-size", "0,3"},
+                    Arguments{"--partitioner", "static-grid", "--cell-size", "3x3"},
+                    Arguments{"--rebuild", "every:0"}, Arguments{"--rebuild", "every:2.5"},
+                    Arguments{"--rebuild", "every:"}, Arguments{"--rebuild", "skin:0"},
+                    Arguments{"--rebuild", "skin:-1"},
+                    Arguments{"--partitioner", "quadtree", "--rebuild", "never"},
+                    Arguments{"--duration", "0"}, Arguments{"--duration", "-1"},
+                    Arguments{"--duration", "nan"}, Arguments{"--report-every", "0"},
+                    Arguments{"--report-every", "nan"}, Arguments{"--json", ""},
+                    Arguments{"--save", ""}, Arguments{"--save", "-"}),
+    [](const auto& info) { return std::to_string(info.index); });
+
+class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
+
+/// These are given once only; a wrapped or cut count would run nearly for ever, so a short duration
+/// bounds the run.
+TEST_P(ImpossibleCount, IsRefused) {
+    expectRefusal(Arguments{"--headless", "--scene", "demo13k", "--duration", "0.05"} + GetParam(),
+                  2, {GetParam()[0]});
+}
+
+INSTANTIATE_TEST_SUITE_P(Usage, ImpossibleCount,
+                         testing::Values(Arguments{"--frames", "-1"}, Arguments{"--frames", "many"},
+                                         Arguments{"--frames", "1.5"}, Arguments{"--frames", ""},
+                                         Arguments{"--frames", "99999999999999999999999"},
+                                         Arguments{"--entities", "-5"},
+                                         Arguments{"--entities", "few"}, Arguments{"--seed", "-1"},
+                                         Arguments{"--seed", "x"}),
+                         [](const auto& info) { return std::to_string(info.index); });
+
+TEST(Usage, MissingValues) {
+    for (const char* option :
+         {"--scene",        "--seed",      "--partitioner", "--cell-size",   "--max-depth",
+          "--max-per-cell", "--rebuild",   "--resolver",    "--threads",     "--law",
+          "--precision",    "--dt",        "--restitution", "--duration",    "--report-every",
+          "--json",         "--csv",       "--dump-state",  "--dump-events", "--save",
+          "--load",         "--screenshot"}) {
+        expectUsageError({option}, {option});
+    }
+    expectRefusal({"--headless", "--frames"}, 2, {"--frames"});
+    expectRefusal({"--headless", "--entities"}, 2, {"--entities"});
+}
+
+TEST(Usage, OptionGivenTwice) {
+    expectRefusal({"--headless", "--frames", "1", "--frames", "2"}, 2, {"--frames"});
+}
+
+TEST(Usage, SnapshotExcludesWhatMakesAScene) {
+    const Arguments load = {"--headless", "--frames", "1", "--load", "run.snapshot"};
+    expectRefusal(load + Arguments{"--scene", "pile"}, 2, {"--load", "--scene"});
+    expectRefusal(load + Arguments{"--entities", "5"}, 2, {"--load", "--entities"});
+    expectRefusal(load + Arguments{"--seed", "5"}, 2, {"--load", "--seed"});
+}
+
+TEST(Usage, OneOutputOnStdout) {
+    expectUsageError({"--json", "-", "--csv", "-"}, {"stdout"});
+    expectUsageError({"--dump-state", "-", "--dump-events", "-"}, {"stdout"});
+    expectUsageError({"--csv", "-", "--dump-state", "-"}, {"stdout"});
+}
+
+TEST(Usage, LawThatIsNotAvailableYet) {
+    expectUsageError({"--law", "continuous"}, {"continuous", "not available yet"});
+    expectUsageError({"--law", "continuous", "--precision", "float"}, {"not available yet"});
+}
+
+TEST(Usage, OptionsThatAreNotAvailableYet) {
+    expectUsageError({"--error"}, {"--error", "yet"});
+    expectUsageError({"--threads", "4"}, {"--threads", "yet"});
+    expectUsageError({"--threads", "0"}, {"--threads"});
+    expectUsageError({"--screenshot", "shot.png"}, {"--screenshot", "yet"});
+}
+
+}  // namespace
+}  // namespace quadrille
