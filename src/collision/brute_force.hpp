@@ -16,8 +16,9 @@ class BruteForcePartitioner final : public Partitioner<Real> {
         cells.coordinates = {CellCoordinates{}};
     }
 
-    bool update(const BodyView<Real>& bodies, Real) override {
+    bool update(const BodyView<Real>& bodies, Real, Real reach) override {
         auto& partition = this->partition_;
+        partition.margin = reach;
         const auto count = static_cast<std::uint32_t>(bodies.size());
         partition.ranges.assign(count, FineRange{0, 0, 0, 0});
         partition.cells.bodies.resize(count);

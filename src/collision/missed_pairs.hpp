@@ -18,7 +18,7 @@ class MissedPairCounter {
     explicit MissedPairCounter(const Vec2& worldSize) : complete_(Quadtree{}, worldSize) {}
 
     std::uint64_t count(const BodyView<Real>& bodies, const Partition<Real>& partition) {
-        complete_.update(bodies, Real(0));
+        complete_.update(bodies, Real(0), Real(0));
         // Pairs that a stale partition shows are tested like any other, so they are a subset.
         return pairs(bodies, complete_.partition()) - pairs(bodies, partition);
     }

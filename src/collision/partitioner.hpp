@@ -51,9 +51,11 @@ class Partitioner {
   public:
     virtual ~Partitioner() = default;
 
-    /// Makes the partition fit the bodies, which move for `dt` a step. Returns whether it was built
-    /// anew. Throws Error if there are more cells or entries than 32 bits can count.
-    virtual bool update(const BodyView<Real>& bodies, Real dt) = 0;
+    /// Makes the partition fit the bodies, and every place that they can get to by moving up to
+    /// `reach` along each axis. `dt` is the length of a step, for those that plan ahead. Returns
+    /// whether the partition was built anew. Throws Error if there are more cells or entries than
+    /// 32 bits can count.
+    virtual bool update(const BodyView<Real>& bodies, Real dt, Real reach) = 0;
 
     virtual std::size_t bytes() const { return partition_.bytes(); }
 

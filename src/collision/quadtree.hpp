@@ -55,7 +55,8 @@ class QuadtreePartitioner final : public Partitioner<Real> {
     QuadtreePartitioner(const Quadtree& config, const Vec2& worldSize)
         : builder_(config.maxDepth, config.maxPerCell, worldSize) {}
 
-    bool update(const BodyView<Real>& bodies, Real) override {
+    bool update(const BodyView<Real>& bodies, Real, Real reach) override {
+        this->partition_.margin = reach;
         builder_.build(bodies, this->partition_);
         return true;
     }

@@ -14,6 +14,7 @@ namespace quadrille {
 /// The numbers of a step that a contact law uses.
 template <class Real>
 struct StepParameters {
+    double start;  ///< s since the start of the run
     Real dt;
     Real gravityX, gravityY;
     Real restitution;
@@ -21,7 +22,7 @@ struct StepParameters {
 
 /// A contact as the resolvers hand it to observers.
 struct ContactRecord {
-    double sinceStart;  ///< s from the start of the step to the impact
+    double time;      ///< of the impact, s since the start of the run
     std::uint32_t a;    ///< row of a moving body
     std::int64_t b;     ///< row of a moving body, or -1 - row of a static one
     std::uint8_t axes;

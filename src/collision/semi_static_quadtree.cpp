@@ -63,14 +63,14 @@ SemiStaticQuadtreePartitioner<Real>::SemiStaticQuadtreePartitioner(const SemiSta
 }
 
 template <class Real>
-bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, Real dt) {
+bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, Real dt, Real reach) {
     ++age_;
     bool due = this->partition_.generation == 0 || bodies.revision != builtRevision_;
     if (const auto* every = std::get_if<SemiStaticQuadtree::EveryFrames>(&config_.rebuild)) {
         due = due || age_ >= static_cast<std::uint32_t>(every->frames);
     } else {
-        due = due || anyLeft(bodies);
-        if (due) this->partition_.margin = chooseMargin(bodies, dt);
+        due = due || anyLeft(bodies, reach);
+        if (due) this->partition_.margin = reach + chooseMargin(bodies, dt, reach);
     }
     if (due) rebuild(bodies);
     return due;
@@ -88,8 +88,8 @@ void SemiStaticQuadtreePartitioner<Real>::rebuild(const BodyView<Real>& bodies) 
 }
 
 template <class Real>
-bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies) const {
-    const auto left = [margin = this->partition_.margin](std::span<const Real> now,
+bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies, Real reach) const {
+    const auto left = [margin = this->partition_.margin - reach](std::span<const Real> now,
                                                          const std::vector<Real>& then) {
         int count = 0;
         // Negated, so that a NaN counts as having left.
@@ -122,7 +122,8 @@ double SemiStaticQuadtreePartitioner<Real>::walked(const BodyView<Real>& bodies)
 /// result is the same with any skin, so a poor choice costs time only.
 template <class Real>
 Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bodies,
-                                                       Real dt) const {
+                                                       Real dt,
+                                                       Real reach) const {
     const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
     if (fixed > 0) return static_cast<Real>(fixed);
     // The first tree shows how the bodies are spread, which decides about the second.
@@ -141,11 +142,13 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
     const double crowd = crowding(this->partition_.cells, size + 2 * Vec2(margin, margin));
     // What bodies walked lately counts too: pushing overlaps apart moves them beyond their speed.
     const double travel = std::max(static_cast<double>(fastest(bodies) * dt), walked(bodies));
+    const auto room = static_cast<double>(reach);
     double bestCost = 0;
     double bestSkin = 0;
     for (int steps = 0; steps <= longest; ++steps) {
         const double skin = steps == 0 ? 0 : (steps + 0.01) * travel;
-        const double pairs = 2 * (size.x() + 2 * skin) * (size.y() + 2 * skin) * crowd;
+        const Vec2 inflated = size + 2 * Vec2(skin + room, skin + room);
+        const double pairs = 2 * inflated.x() * inflated.y() * crowd;
         const double cost =
             (buildPrice * count + collectPrice * pairs) / (steps + 1) + testPrice * pairs;
         if (steps == 0 || cost < bestCost) {

@@ -13,15 +13,15 @@ class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
   public:
     SemiStaticQuadtreePartitioner(const SemiStaticQuadtree& config, const Vec2& worldSize);
 
-    bool update(const BodyView<Real>& bodies, Real dt) override;
+    bool update(const BodyView<Real>& bodies, Real dt, Real reach) override;
 
     std::size_t bytes() const override;
 
   private:
     void rebuild(const BodyView<Real>& bodies);
-    bool anyLeft(const BodyView<Real>& bodies) const;
+    bool anyLeft(const BodyView<Real>& bodies, Real reach) const;
     double walked(const BodyView<Real>& bodies) const;
-    Real chooseMargin(const BodyView<Real>& bodies, Real dt) const;
+    Real chooseMargin(const BodyView<Real>& bodies, Real dt, Real reach) const;
 
     SemiStaticQuadtree config_;
     QuadtreeBuilder<Real> builder_;

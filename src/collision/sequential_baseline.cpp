@@ -35,7 +35,7 @@ ResolveCounts SequentialBaseline<Real>::resolve(const BodyView<Real>& bodies,
         ++counts.collisions;
         if (records != nullptr) {
             const auto sense = static_cast<std::int8_t>(p.sense);
-            records->push_back({.sinceStart = static_cast<double>(step.dt),
+            records->push_back({.time = step.start + static_cast<double>(step.dt),
                                 .a = a,
                                 .b = b,
                                 .axes = p.axis,

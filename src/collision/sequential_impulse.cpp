@@ -124,7 +124,7 @@ ResolveCounts SequentialImpulse<Real>::resolve(const BodyView<Real>& bodies,
         if (records != nullptr) {
             const bool isStatic = (c.b & staticBit) != 0;
             const auto b = static_cast<std::int64_t>(c.b & ~staticBit);
-            records->push_back({.sinceStart = static_cast<double>(c.sinceStart),
+            records->push_back({.time = step.start + static_cast<double>(c.sinceStart),
                                 .a = c.a,
                                 .b = isStatic ? -1 - b : b,
                                 .axes = c.axes,

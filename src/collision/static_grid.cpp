@@ -47,12 +47,13 @@ StaticGridPartitioner<Real>::StaticGridPartitioner(const StaticGrid& config, con
 }
 
 template <class Real>
-bool StaticGridPartitioner<Real>::update(const BodyView<Real>& bodies, Real) {
+bool StaticGridPartitioner<Real>::update(const BodyView<Real>& bodies, Real, Real reach) {
     auto& partition = this->partition_;
+    partition.margin = reach;
     auto& ranges = partition.ranges;
     auto& offsets = partition.cells.offsets;
     const std::size_t cellCount = partition.cells.size();
-    grid_.ranges(bodies, Real(0), ranges);
+    grid_.ranges(bodies, reach, ranges);
 
     // Counting sort: counts, then the end of each cell, then a fill from the last body down that
     // leaves each cell in ascending order and offsets[c] at its start.

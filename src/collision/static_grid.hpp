@@ -10,7 +10,7 @@ class StaticGridPartitioner final : public Partitioner<Real> {
   public:
     StaticGridPartitioner(const StaticGrid& config, const Vec2& worldSize);
 
-    bool update(const BodyView<Real>& bodies, Real dt) override;
+    bool update(const BodyView<Real>& bodies, Real dt, Real reach) override;
 
   private:
     std::uint32_t columns_, rows_;

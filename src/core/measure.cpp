@@ -81,7 +81,7 @@ Overlap overlap(const World& world) {
         const auto& m = bodies.moving;
         const auto& f = bodies.fixed;
         auto partitioner = makePartitioner<Real>(Quadtree{}, world.config().size);
-        partitioner->update(bodies, Real(1));
+        partitioner->update(bodies, Real(1), Real(0));
         Overlap result;
         const auto add = [&](Real dx, Real dy, Real reachX, Real reachY) {
             const double depth =

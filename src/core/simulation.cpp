@@ -9,6 +9,7 @@
 #include <quadrille/error.hpp>
 #include <quadrille/simulation.hpp>
 
+#include "core/step_times.hpp"
 #include "core/stepper.hpp"
 
 namespace quadrille {
@@ -68,8 +69,8 @@ struct Simulation::Impl {
         world.setPrecision(config.precision);
     }
 
-    void collectContacts(double start);
-    void notify(double start);
+    void collectContacts();
+    void notify();
 };
 
 Simulation::Simulation(World world, SimulationConfig config) {
@@ -87,22 +88,21 @@ const StepReport& Simulation::step() {
     for (std::size_t i = 0; i < s.systems.size(); ++i) s.systems[i](s.world, s.config.dt);
     s.world.flush();
 
-    const double start = time();
     s.report = StepReport{.step = s.stepsDone + 1};
     s.records.clear();
     std::visit(
         [&](auto& stepper) {
-            stepper.step(s.world, s.contactListeners.empty() ? nullptr : &s.records, s.report,
+            stepper.step(s.world, s.stepsDone + 1, s.contactListeners.empty() ? nullptr : &s.records, s.report,
                          s.config.profile);
         },
         s.stepper);
     ++s.stepsDone;
-    s.notify(start);
+    s.notify();
     return s.report;
 }
 
 /// Contacts are complete before a listener sees one: it may create and destroy bodies.
-void Simulation::Impl::collectContacts(double start) {
+void Simulation::Impl::collectContacts() {
     contacts.clear();
     world.visitBodies([&](const auto& bodies) {
         const auto entityOf = [&](std::int64_t row) {
@@ -113,7 +113,7 @@ void Simulation::Impl::collectContacts(double start) {
         for (const ContactRecord& record : records) {
             contacts.push_back({.a = entityOf(record.a),
                                 .b = entityOf(record.b),
-                                .time = start + record.sinceStart,
+                                .time = record.time,
                                 .axis = static_cast<Axis>(record.axes),
                                 .normal = Vec2((record.axes & 1) != 0 ? record.senseX : 0,
                                                (record.axes & 2) != 0 ? record.senseY : 0),
@@ -124,11 +124,11 @@ void Simulation::Impl::collectContacts(double start) {
     });
 }
 
-void Simulation::Impl::notify(double start) {
+void Simulation::Impl::notify() {
     if (contactListeners.empty() && observers.empty()) return;
     const auto before = std::chrono::steady_clock::now();
     if (!records.empty()) {
-        collectContacts(start);
+        collectContacts();
         for (const Contact& contact : contacts) {
             for (std::size_t i = 0; i < contactListeners.size(); ++i) contactListeners[i](contact);
         }
@@ -149,7 +149,7 @@ World& Simulation::world() { return impl_->world; }
 const World& Simulation::world() const { return impl_->world; }
 const SimulationConfig& Simulation::config() const { return impl_->config; }
 std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
-double Simulation::time() const { return double(impl_->stepsDone) * impl_->config.dt; }
+double Simulation::time() const { return StepTimes(impl_->config.dt).at(impl_->stepsDone); }
 
 void Simulation::onContact(std::function<void(const Contact&)> listener) {
     impl_->contactListeners.push_back(std::move(listener));

@@ -11,33 +11,6 @@ namespace quadrille {
 
 namespace {
 
-/// Measures the phases of a step one after the other; does nothing unless asked to.
-class PhaseClock {
-  public:
-    using Clock = std::chrono::steady_clock;
-
-    PhaseClock(StepReport& report, bool enabled) : report_(report), enabled_(enabled) {
-        if (enabled_) last_ = Clock::now();
-    }
-    void finish(Phase phase) {
-        if (!enabled_) return;
-        const auto now = Clock::now();
-        report_.phaseSeconds[static_cast<std::size_t>(phase)] =
-            std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-    }
-
-    /// Leaves out what happened since the last phase.
-    void restart() {
-        if (enabled_) last_ = Clock::now();
-    }
-
-  private:
-    StepReport& report_;
-    bool enabled_;
-    Clock::time_point last_;
-};
-
 template <class Real>
 void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, Real dt) {
     Real* const p = position.data();
@@ -74,8 +47,9 @@ void requireFinite(const BodyView<Real>& bodies) {
 
 template <class Real>
 Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
-    : parameters_{static_cast<Real>(config.dt), static_cast<Real>(config.gravity.x()),
-                  static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)} {
+    : parameters_{0, static_cast<Real>(config.dt), static_cast<Real>(config.gravity.x()),
+                  static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)},
+      times_(config.dt) {
     setPartitioner(config, worldSize);
     if (config.countMissedPairs) {
         missedPairs_ = std::make_unique<MissedPairCounter<Real>>(worldSize);
@@ -86,7 +60,18 @@ template <class Real>
 void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& worldSize) {
     // The resolver remembers pairs of the partition that it saw last, so both are replaced.
     auto partitioner = makePartitioner<Real>(config.partitioner, worldSize);
-    resolver_ = makeResolver<Real>(config.resolver, config.law);
+    if (config.law == Law::Continuous) {
+        if (!partitioner->partition().complete) {
+            throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
+        }
+        if (config.resolver != ResolverKind::Sequential) {
+            throw NotAvailable("the law 'continuous' runs on the resolver 'sequential'");
+        }
+        continuous_ =
+            std::make_unique<SequentialContinuous<Real>>(config.gravity, config.restitution);
+    } else {
+        resolver_ = makeResolver<Real>(config.resolver, config.law);
+    }
     partitioner_ = std::move(partitioner);
 }
 
@@ -98,35 +83,72 @@ void Stepper<Real>::integrate(const BodyView<Real>& bodies) const {
 
 template <class Real>
 void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, StepReport& report) {
-    const auto start = PhaseClock::Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     report.missedPairs = missedPairs_->count(bodies, partitioner_->partition());
-    report.auditSeconds = std::chrono::duration<double>(PhaseClock::Clock::now() - start).count();
+    report.auditSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 template <class Real>
-void Stepper<Real>::step(World& world, std::vector<ContactRecord>* records, StepReport& report,
-                         bool profile) {
+void Stepper<Real>::updatePartition(const BodyView<Real>& bodies, Real reach, StepReport& report) {
+    const bool rebuilt = partitioner_->update(bodies, parameters_.dt, reach);
+    report.rebuilt = report.rebuilt || rebuilt;
+    // A skin notices a NaN as a body that left its box, so checking at builds sees every one; a tree
+    // that is kept for so many steps, whatever happens, notices nothing.
+    if (rebuilt || !partitioner_->partition().complete) requireFinite(bodies);
+}
+
+template <class Real>
+void Stepper<Real>::step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,
+                         StepReport& report, bool profile) {
     const BodyView<Real> bodies = world.bodies<Real>();
     PhaseClock clock(report, profile);
+    const ResolveCounts counts = continuous_
+                                     ? stepContinuous(bodies, number, records, report, clock)
+                                     : stepDiscrete(bodies, number, records, report, clock);
+    report.contacts = counts.contacts;
+    report.collisions = counts.collisions;
+    report.pairsTested = counts.pairsTested;
+}
+
+template <class Real>
+ResolveCounts Stepper<Real>::stepDiscrete(const BodyView<Real>& bodies, std::uint64_t number,
+                                          std::vector<ContactRecord>* records, StepReport& report,
+                                          PhaseClock& clock) {
+    parameters_.start = times_.at(number - 1);
     integrate(bodies);
     clock.finish(Phase::Integrate);
-
-    report.rebuilt = partitioner_->update(bodies, parameters_.dt);
-    // A skin notices a NaN as a body that left its box, so checking at builds sees every one; a
-    // tree that is kept for so many steps, whatever happens, notices nothing.
-    if (report.rebuilt || !partitioner_->partition().complete) requireFinite(bodies);
+    updatePartition(bodies, Real(0), report);
     clock.finish(Phase::Partition);
     if (missedPairs_) {
         countMissedPairs(bodies, report);
         clock.restart();
     }
-
     const ResolveCounts counts =
         resolver_->resolve(bodies, partitioner_->partition(), parameters_, records);
     clock.finish(Phase::Resolve);
-    report.contacts = counts.contacts;
-    report.collisions = counts.collisions;
-    report.pairsTested = counts.pairsTested;
+    return counts;
+}
+
+template <class Real>
+ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::uint64_t number,
+                                            std::vector<ContactRecord>* records, StepReport& report,
+                                            PhaseClock& clock) {
+    const double start = times_.at(number - 1);
+    const double end = times_.at(number);
+    ResolveCounts counts;
+    continuous_->anchor(bodies, start);
+    clock.finish(Phase::Integrate);
+    for (double now = start; now < end;) {
+        const Real reach = continuous_->reach(bodies, now, end);
+        updatePartition(bodies, reach, report);
+        clock.finish(Phase::Partition);
+        now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
+                                   counts);
+        clock.finish(Phase::Resolve);
+        continuous_->place(bodies, now);
+        clock.finish(Phase::Integrate);
+    }
+    return counts;
 }
 
 template class Stepper<double>;

@@ -9,6 +9,9 @@
 #include "collision/missed_pairs.hpp"
 #include "collision/partitioner.hpp"
 #include "collision/resolver.hpp"
+#include "collision/sequential_continuous.hpp"
+#include "core/phase_clock.hpp"
+#include "core/step_times.hpp"
 
 namespace quadrille {
 
@@ -20,14 +23,23 @@ class Stepper {
 
     void setPartitioner(const SimulationConfig& config, const Vec2& worldSize);
 
-    /// One step. Contacts go to `records` unless it is null. Fills the report's counts and, with
+    /// One step, the `number`-th of the run, from 1. Contacts go to `records` unless it is null. Fills the report's counts and, with
     /// `profile`, its times.
-    void step(World& world, std::vector<ContactRecord>* records, StepReport& report, bool profile);
+    void step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,
+              StepReport& report, bool profile);
 
     const Cells& cells() const { return partitioner_->partition().cells; }
-    std::size_t bytes() const { return partitioner_->bytes() + resolver_->bytes(); }
+    std::size_t bytes() const {
+        return partitioner_->bytes() + (resolver_ ? resolver_->bytes() : continuous_->bytes());
+    }
 
   private:
+    ResolveCounts stepDiscrete(const BodyView<Real>& bodies, std::uint64_t number,
+                               std::vector<ContactRecord>* records, StepReport& report, PhaseClock& clock);
+    ResolveCounts stepContinuous(const BodyView<Real>& bodies, std::uint64_t number,
+                                 std::vector<ContactRecord>* records, StepReport& report,
+                                 PhaseClock& clock);
+    void updatePartition(const BodyView<Real>& bodies, Real reach, StepReport& report);
     void integrate(const BodyView<Real>& bodies) const;
 
     void countMissedPairs(const BodyView<Real>& bodies, StepReport& report);
@@ -35,7 +47,9 @@ class Stepper {
     StepParameters<Real> parameters_;
     std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
-    std::unique_ptr<Resolver<Real>> resolver_;
+    std::unique_ptr<Resolver<Real>> resolver_;                 // of a discrete law, or
+    std::unique_ptr<SequentialContinuous<Real>> continuous_;  // of the continuous one
+    StepTimes times_;
 };
 
 }  // namespace quadrille

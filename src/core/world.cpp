@@ -164,7 +164,7 @@ BodyView<Real> World::bodies() {
     auto& m = columns->moving;
     auto& f = columns->fixed;
     return {.moving = {m.x, m.y, m.vx, m.vy, m.halfWidth.view(), m.halfHeight.view(), m.mass.view(),
-                       m.entity},
+                       m.entity, &m.anchors},
             .fixed = {f.x, f.y, f.halfWidth, f.halfHeight, f.entity},
             .revision = revision_};
 }
@@ -303,6 +303,7 @@ void World::appendBody(Entity entity, const Transform& transform, const BoxColli
                 m.halfHeight.push_back(halfHeight);
                 m.mass.push_back(mass);
                 m.entity.push_back(entity.index);
+                m.anchors.append();
             }
         },
         columns_);
@@ -344,9 +345,11 @@ void World::eraseBodies(const std::function<bool(std::uint32_t)>& gone) {
             const auto moving = compact(m.entity, 0, [&](std::size_t from, std::size_t to) {
                 for (auto* column : {&m.x, &m.y, &m.vx, &m.vy}) (*column)[to] = (*column)[from];
                 for (auto* column : {&m.halfWidth, &m.halfHeight, &m.mass}) column->move(from, to);
+                m.anchors.move(from, to);
             });
             for (auto* column : {&m.x, &m.y, &m.vx, &m.vy}) column->resize(moving);
             for (auto* column : {&m.halfWidth, &m.halfHeight, &m.mass}) column->shrink(moving);
+            m.anchors.shrink(moving);
 
             auto& f = columns.fixed;
             const auto fixed = compact(f.entity, staticBit, [&](std::size_t from, std::size_t to) {
@@ -412,6 +415,7 @@ void World::writeBody(Entity entity, const Transform& in) {
             const bool fixed = (slot & staticBit) != 0;
             (fixed ? columns.fixed.x : columns.moving.x)[row] = x;
             (fixed ? columns.fixed.y : columns.moving.y)[row] = y;
+            if (!fixed) columns.moving.anchors.forget(row);
         },
         columns_);
     ++revision_;
@@ -455,6 +459,7 @@ void World::writeBody(Entity entity, const PhysicsBody& in) {
             columns.moving.vx[row] = vx;
             columns.moving.vy[row] = vy;
             columns.moving.mass.set(row, mass);
+            columns.moving.anchors.forget(row);
         },
         columns_);
     ++revision_;

@@ -140,9 +140,13 @@ TEST_F(Dump, CsvHasARowAFrame) {
     }
     for (std::size_t c = 0; c < sums.size(); ++c) {
         for (const char* key : {"contacts", "collisions", "pairs_tested"}) {
-            if (table.columns[c] == key) EXPECT_EQ(sums[c], summary[key].get<double>()) << key;
+            if (table.columns[c] == key) {
+                EXPECT_EQ(sums[c], summary[key].get<double>()) << key;
+            }
         }
-        if (table.columns[c] == "rebuilt") EXPECT_EQ(sums[c], summary["rebuilds"].get<double>());
+        if (table.columns[c] == "rebuilt") {
+            EXPECT_EQ(sums[c], summary["rebuilds"].get<double>());
+        }
         if (table.columns[c] == "kinetic_energy") {
             EXPECT_EQ(numberOf(table.rows.back()[c]), summary["kinetic_energy"]["end"]);
         }

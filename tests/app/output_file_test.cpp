@@ -64,13 +64,7 @@ TEST_P(UnwritableOutput, LeavesTheOtherFilesAsTheyWere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OutputFiles, UnwritableOutput, testing::ValuesIn(outputOptions),
-                         [](const auto& info) {
-                             std::string name;
-                             for (const char c : info.param) {
-                                 if (c != '-') name += c;
-                             }
-                             return name;
-                         });
+                         [](const auto& test) { return identifier(test.param); });
 
 TEST_F(OutputFiles, StayAsTheyWereIfTheRunFails) {
     Arguments run = {"--headless", "--frames", "50", "--scene", failingScene()};
@@ -127,13 +121,7 @@ TEST_P(SpecialFile, IsNotReplaced) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OutputFiles, SpecialFile, testing::ValuesIn(outputOptions),
-                         [](const auto& info) {
-                             std::string name;
-                             for (const char c : info.param) {
-                                 if (c != '-') name += c;
-                             }
-                             return name;
-                         });
+                         [](const auto& test) { return identifier(test.param); });
 
 }  // namespace
 }  // namespace quadrille

@@ -24,6 +24,9 @@ ProcessResult runProgram(const Arguments& arguments);
 
 bool contains(std::string_view text, std::string_view part);
 
+/// The letters and digits of a text, as the names of parametrized tests need them.
+std::string identifier(std::string_view text);
+
 std::filesystem::path shippedScene(const std::string& name);
 
 /// A CSV file: the names of its columns and its rows.

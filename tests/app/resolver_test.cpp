@@ -36,9 +36,7 @@ TEST_P(Fallback, IsNamedInEveryOutput) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda", "cuda-resident", "threads"),
-                         [](const auto& info) {
-                             return info.param == "cuda-resident" ? "cuda_resident" : info.param;
-                         });
+                         [](const auto& test) { return identifier(test.param); });
 
 class NoDevice : public testing::TestWithParam<std::string> {};
 
@@ -48,9 +46,7 @@ TEST_P(NoDevice, IsAnErrorWithoutFallback) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolver, NoDevice, testing::Values("cuda", "cuda-resident"),
-                         [](const auto& info) {
-                             return info.param == "cuda" ? "cuda" : "cuda_resident";
-                         });
+                         [](const auto& test) { return identifier(test.param); });
 
 TEST(Resolver, AutoNeedsNoFallback) {
     const ProcessResult result = runProgram(cradle + Arguments{"--no-fallback"});

@@ -60,8 +60,8 @@ TEST_P(Signal, IsHeededWhileDataGoesToStdout) {
     EXPECT_GT(summary["frames"], 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, Signal, testing::Values(SIGINT, SIGTERM), [](const auto& info) {
-    return info.param == SIGINT ? "interrupt" : "terminate";
+INSTANTIATE_TEST_SUITE_P(Run, Signal, testing::Values(SIGINT, SIGTERM), [](const auto& test) {
+    return test.param == SIGINT ? "interrupt" : "terminate";
 });
 
 class LongRun : public ProgramTest {};

@@ -27,11 +27,7 @@ TEST_P(FewBodies, OneOrNoneIsEnough) {
 INSTANTIATE_TEST_SUITE_P(Size, FewBodies,
                          testing::Values("brute-force", "static-grid", "quadtree",
                                          "semi-static-quadtree"),
-                         [](const auto& info) {
-                             std::string name = info.param;
-                             for (char& c : name) c = c == '-' ? '_' : c;
-                             return name;
-                         });
+                         [](const auto& test) { return identifier(test.param); });
 
 TEST_F(Size, TwoHundredThousandBodies) {
     const Json s =

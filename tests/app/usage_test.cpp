@@ -47,6 +47,12 @@ TEST(Usage, UnknownSceneListsTheValidOnes) {
                       "demo13k", "imbalanced", "mixed-sizes", "pi", "pile"});
 }
 
+std::string nameOf(const testing::TestParamInfo<Arguments>& test) {
+    std::string words;
+    for (const std::string& argument : test.param) words += argument;
+    return identifier(words) + "_" + std::to_string(test.index);
+}
+
 class ImpossibleValue : public testing::TestWithParam<std::vector<std::string>> {};
 
 /// The option is named, and the message does not drown the reader in digits.
@@ -76,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Arguments{"--duration", "nan"}, Arguments{"--report-every", "0"},
                     Arguments{"--report-every", "nan"}, Arguments{"--json", ""},
                     Arguments{"--save", ""}, Arguments{"--save", "-"}),
-    [](const auto& info) { return std::to_string(info.index); });
+    nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
 
@@ -94,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Usage, ImpossibleCount,
                                          Arguments{"--entities", "-5"},
                                          Arguments{"--entities", "few"}, Arguments{"--seed", "-1"},
                                          Arguments{"--seed", "x"}),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         nameOf);
 
 TEST(Usage, MissingValues) {
     for (const char* option :
