@@ -13,61 +13,41 @@ namespace quadrille {
 /// How coordinates and velocities are stored and computed.
 enum class Precision : std::uint8_t { Double, Float };
 
-/// Exact motion, kept by the law `continuous`: where and when each body's straight or falling path
-/// began. Rows without an anchor (new, or edited from outside) have NaN as their time.
+/// Exact motion, kept by the law `continuous`: where and when each body's straight path began. Rows
+/// without an anchor (new, or edited from outside) have NaN as their time.
 template <class Real>
 struct Anchors {
     bool enabled = false;
-    bool accelerated = false;           ///< velocities differ from those at the anchor
-    std::size_t missing = 0;            ///< rows that may have no anchor
-    std::vector<Real> x, y;             ///< px
-    Column<double> timeX, timeY;        ///< s
-    std::vector<Real> vx, vy;           ///< px/s at the anchor; empty unless accelerated
-    Column<std::uint8_t> resting;       ///< axes (1 = x, 2 = y) along which a body is supported
+    std::size_t missing = 0;      ///< rows that may have no anchor
+    std::vector<Real> x, y;       ///< px
+    Column<double> timeX, timeY;  ///< s
 
     /// Anchors all bodies where they are.
-    void start(std::span<const Real> px, std::span<const Real> py, std::span<const Real> pvx,
-               std::span<const Real> pvy, double now, bool withAcceleration) {
+    void start(std::span<const Real> px, std::span<const Real> py, double now) {
         *this = {};
         enabled = true;
-        accelerated = withAcceleration;
         x.assign(px.begin(), px.end());
         y.assign(py.begin(), py.end());
-        if (accelerated) {
-            vx.assign(pvx.begin(), pvx.end());
-            vy.assign(pvy.begin(), pvy.end());
-        }
         for (std::size_t i = 0; i < x.size(); ++i) {
             timeX.push_back(now);
             timeY.push_back(now);
-            resting.push_back(0);
         }
     }
 
     /// Anchors one body.
-    void put(std::size_t row, Real px, Real py, Real pvx, Real pvy, double now) {
+    void put(std::size_t row, Real px, Real py, double now) {
         x[row] = px;
         y[row] = py;
-        if (accelerated) {
-            vx[row] = pvx;
-            vy[row] = pvy;
-        }
         timeX.set(row, now);
         timeY.set(row, now);
-        resting.set(row, 0);
     }
 
     void append() {
         if (!enabled) return;
         x.push_back(0);
         y.push_back(0);
-        if (accelerated) {
-            vx.push_back(0);
-            vy.push_back(0);
-        }
         timeX.push_back(std::numeric_limits<double>::quiet_NaN());
         timeY.push_back(std::numeric_limits<double>::quiet_NaN());
-        resting.push_back(0);
         ++missing;
     }
 
@@ -82,21 +62,17 @@ struct Anchors {
     void move(std::size_t from, std::size_t to) {
         if (!enabled) return;
         for (auto* column : {&x, &y}) (*column)[to] = (*column)[from];
-        if (accelerated) {
-            for (auto* column : {&vx, &vy}) (*column)[to] = (*column)[from];
-        }
         for (auto* column : {&timeX, &timeY}) column->move(from, to);
-        resting.move(from, to);
     }
 
     void shrink(std::size_t size) {
         if (!enabled) return;
         for (auto* column : {&x, &y}) column->resize(size);
-        if (accelerated) {
-            for (auto* column : {&vx, &vy}) column->resize(size);
-        }
         for (auto* column : {&timeX, &timeY}) column->shrink(size);
-        resting.shrink(size);
+    }
+
+    std::size_t bytes() const {
+        return (x.capacity() + y.capacity()) * sizeof(Real) + timeX.bytes() + timeY.bytes();
     }
 };
 

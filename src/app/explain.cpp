@@ -62,7 +62,7 @@ void list(std::ostream& out) {
     for (const std::string& scene : sceneNames()) out << ' ' << scene;
     out << "\npartitioners: brute-force static-grid quadtree semi-static-quadtree"
         << "\nresolvers: sequential"
-        << "\nlaws: baseline impulse"
+        << "\nlaws: baseline impulse continuous"
         << "\nprecisions: double float\n";
 }
 

@@ -3,11 +3,13 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #ifdef _WIN32
 #include <io.h>
@@ -87,6 +89,16 @@ class ProgressLine {
     bool shown_;
 };
 
+/// A snapshot is opened at the end of the run, too late to say that it cannot be.
+void requireWritable(const std::string& snapshot) {
+    std::error_code error;
+    const auto status = std::filesystem::status(snapshot, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw Error(snapshot + ": is not a file that a snapshot can replace");
+    }
+    const OutputFile probe(snapshot);
+}
+
 }  // namespace
 
 void runHeadless(Run run, const Options& options) {
@@ -94,6 +106,9 @@ void runHeadless(Run run, const Options& options) {
     // A file that cannot be written should fail now and not after the run.
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
+    std::optional<OutputFile> state;
+    if (!options.dumpState.empty()) state.emplace(options.dumpState);
+    if (!options.save.empty()) requireWritable(options.save);
     std::optional<FrameRecorder> frames;
     if (!options.csv.empty()) frames.emplace(options.csv);
     std::optional<EventRecorder> events;
@@ -141,7 +156,7 @@ void runHeadless(Run run, const Options& options) {
 
     if (frames) frames->commit();
     if (events) events->commit();
-    if (!options.dumpState.empty()) writeState(options.dumpState, simulation.world());
+    if (state) writeState(*state, simulation.world());
     if (!options.save.empty()) saveSnapshot(options.save, simulation, run.scene, run.seed);
     if (json) {
         json->stream() << summary.dump(2) << '\n';

@@ -24,7 +24,10 @@ int run(int argc, char** argv) {
         return done;
     }
     if (options.explain) {
-        explain(std::cout, setUp(options));
+        Run run = setUp(options);
+        // Events are written from a listener.
+        if (!options.dumpEvents.empty()) run.simulation.onContact([](const Contact&) {});
+        explain(std::cout, run);
         return done;
     }
     if (!options.headless) {

@@ -1,11 +1,13 @@
 #include "app/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <iostream>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include <quadrille/version.hpp>
 
@@ -23,7 +25,7 @@ struct RawOptions {
     int maxPerCell = 20;
     std::string rebuild = "skin";
     std::string law, precision;
-    unsigned threads = 0;
+    std::optional<unsigned> threads;
     bool error = false;
     std::string screenshot;
 };
@@ -65,11 +67,45 @@ decltype(SemiStaticQuadtree::rebuild) parseRebuild(std::string_view text) {
                      "' is not known; valid: skin, skin:WIDTH, every:K");
 }
 
+/// CLI11 converts as strtoull does, which wraps -1, cuts what is too large and reads 010 as octal.
+const CLI::Validator wholeNumber(
+    [](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool octal = text.size() > 1 && text[0] == '0';
+        if (error == std::errc() && end == text.data() + text.size() && !octal) return {};
+        return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
+    },
+    "");
+
+/// CLI::PositiveNumber and CLI::Range let NaN pass, and print the largest double in full.
+CLI::Validator finiteNumber(bool (*valid)(double), std::string range) {
+    return CLI::Validator(
+        [valid, range = std::move(range)](std::string& text) -> std::string {
+            double value = 0;
+            const auto [end, error] =
+                std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool number = error == std::errc() && end == text.data() + text.size();
+            if (number && std::isfinite(value) && valid(value)) return {};
+            return "'" + text + "' is not a number " + range;
+        },
+        "");
+}
+const auto positiveNumber = [] {
+    return finiteNumber([](double value) { return value > 0; }, "above 0");
+};
+
+const CLI::Validator fileName(
+    [](std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
+
 PartitionerConfig makePartitionerConfig(const RawOptions& raw) {
+    // Wrong values are refused whether or not the partitioner that was chosen has use for them.
+    const Vec2 cellSize = parseCellSize(raw.cellSize);
+    const auto rebuild = parseRebuild(raw.rebuild);
     if (raw.partitioner == "brute-force") return BruteForce{};
-    if (raw.partitioner == "static-grid") return StaticGrid{parseCellSize(raw.cellSize)};
+    if (raw.partitioner == "static-grid") return StaticGrid{cellSize};
     if (raw.partitioner == "quadtree") return Quadtree{raw.maxDepth, raw.maxPerCell};
-    return SemiStaticQuadtree{raw.maxDepth, raw.maxPerCell, parseRebuild(raw.rebuild)};
+    return SemiStaticQuadtree{raw.maxDepth, raw.maxPerCell, rebuild};
 }
 
 const std::map<std::string, Law> laws = {
@@ -88,23 +124,26 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
                       ->group("Scene");
     auto* entities = app.add_option("--entities", options.entities,
                                     "Count of the scene's first spawn group (the scene's)")
+                         ->check(wholeNumber)
                          ->type_name("N")
                          ->group("Scene");
     auto* seed = app.add_option("--seed", options.seed, "Random seed (the scene's)")
+                     ->check(wholeNumber)
                      ->type_name("S")
                      ->group("Scene");
     app.add_option("--load", options.load, "Resume from a snapshot")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Scene")
         ->excludes(scene)
         ->excludes(entities)
         ->excludes(seed);
     app.add_option("--dt", options.dt, "Length of a step in s (the scene's)")
-        ->check(CLI::PositiveNumber)
+        ->check(positiveNumber())
         ->type_name("SECONDS")
         ->group("Scene");
     app.add_option("--restitution", options.restitution, "From 0 to 1 (the scene's)")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(finiteNumber([](double value) { return value >= 0 && value <= 1; }, "from 0 to 1"))
         ->type_name("E")
         ->group("Scene");
 
@@ -157,14 +196,15 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
 
     app.add_flag("--headless", options.headless, "Run without a window")->group("Run");
     app.add_option("--frames", options.frames, "Stop after so many frames")
+        ->check(wholeNumber)
         ->type_name("N")
         ->group("Run");
     app.add_option("--duration", options.duration, "Stop after so many seconds of wall time")
-        ->check(CLI::PositiveNumber)
+        ->check(positiveNumber())
         ->type_name("S")
         ->group("Run");
     app.add_option("--report-every", options.reportEvery, "Seconds between two reports")
-        ->check(CLI::PositiveNumber)
+        ->check(positiveNumber())
         ->type_name("S")
         ->capture_default_str()
         ->group("Run");
@@ -172,21 +212,27 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_flag("--error", raw.error, "Measure the error against the reference")->group("Run");
 
     app.add_option("--json", options.json, "Write the run's summary ('-' is stdout)")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--csv", options.csv, "Write a row for each frame ('-' is stdout)")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--dump-state", options.dumpState, "Write the final state as CSV")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--dump-events", options.dumpEvents, "Write every collision as CSV")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--save", options.save, "Write a snapshot at the end")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--screenshot", raw.screenshot, "Write the last frame shown as PNG")
+        ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
     app.add_flag("--explain", options.explain,
@@ -200,12 +246,31 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         "device.");
 }
 
+/// Two outputs would write over each other under one name.
+void refuseSharedOutputs(const Options& options) {
+    const std::array<std::pair<const char*, const std::string*>, 5> outputs = {{
+        {"--json", &options.json},
+        {"--csv", &options.csv},
+        {"--dump-state", &options.dumpState},
+        {"--dump-events", &options.dumpEvents},
+        {"--save", &options.save},
+    }};
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (outputs[i].second->empty() || *outputs[i].second == "-") continue;
+            if (*outputs[i].second != *outputs[j].second) continue;
+            throw UsageError(std::string(outputs[j].first) + " and " + outputs[i].first +
+                             " name the same file");
+        }
+    }
+}
+
 /// Turns what was typed into what the program needs, and refuses what it cannot do.
 void interpret(Options& options, const RawOptions& raw) {
     options.partitioner = makePartitionerConfig(raw);
     if (!raw.law.empty()) options.law = laws.at(raw.law);
     if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
-    if (raw.threads > 0) throw UsageError("--threads: this version has no threaded resolver yet");
+    if (raw.threads) throw UsageError("--threads: this version has no threaded resolver yet");
     if (raw.error) throw UsageError("--error: this version has no reference to compare with yet");
     if (!raw.screenshot.empty()) throw UsageError("--screenshot: this version has no window yet");
     int onStdout = 0;
@@ -214,6 +279,7 @@ void interpret(Options& options, const RawOptions& raw) {
         onStdout += *file == "-";
     }
     if (onStdout > 1) throw UsageError("only one output can go to stdout ('-')");
+    refuseSharedOutputs(options);
     if (options.save == "-") throw UsageError("--save: a snapshot cannot go to stdout");
 }
 

@@ -22,13 +22,24 @@ std::string shortest(Real value) {
 
 OutputFile::OutputFile(const std::string& name) : name_(name) {
     if (name_ == "-") return;
-    temporary_ = name_ + ".part";
-    file_.open(temporary_, std::ios::binary);
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(name_, error);
+    if (fs::is_directory(status)) throw Error(name_ + ": is a folder");
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        file_.open(name_, std::ios::binary);
+    } else {
+        target_ = name_;
+        if (fs::is_symlink(target_, error) && fs::exists(status)) target_ = fs::canonical(target_);
+        temporary_ = target_;
+        temporary_ += ".part";
+        file_.open(temporary_, std::ios::binary);
+    }
     if (!file_) throw Error(name_ + ": cannot be written");
 }
 
 OutputFile::~OutputFile() {
-    if (committed_ || name_ == "-") return;
+    if (committed_ || temporary_.empty()) return;
     file_.close();
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
@@ -44,8 +55,9 @@ void OutputFile::commit() {
     }
     file_.close();
     if (!file_) throw Error(name_ + ": cannot be written");
+    if (temporary_.empty()) return;
     std::error_code error;
-    std::filesystem::rename(temporary_, name_, error);
+    std::filesystem::rename(temporary_, target_, error);
     if (error) throw Error(name_ + ": " + error.message());
     committed_ = true;
 }

@@ -8,7 +8,8 @@
 namespace quadrille::app {
 
 /// A result file that appears whole or not at all: it grows under another name beside the target
-/// and takes the target's name at `commit`. The name "-" is stdout.
+/// and takes the target's name at `commit`. The name "-" is stdout. A link stays, and its target is
+/// replaced; a device or a pipe is never replaced but written to.
 class OutputFile {
   public:
     /// Throws Error if it cannot be written.
@@ -24,7 +25,7 @@ class OutputFile {
 
   private:
     std::string name_;
-    std::filesystem::path temporary_;
+    std::filesystem::path target_, temporary_;  // empty if nothing is to be renamed
     std::ofstream file_;
     bool committed_ = false;
 };

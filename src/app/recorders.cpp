@@ -25,8 +25,7 @@ void EventRecorder::record(const Contact& contact) {
                   << int(contact.axis) << '\n';
 }
 
-void writeState(const std::string& file, const World& world) {
-    OutputFile out(file);
+void writeState(OutputFile& out, const World& world) {
     std::ostream& stream = out.stream();
     stream << "entity,x,y,vx,vy\n";
     world.visitBodies([&](const auto& bodies) {

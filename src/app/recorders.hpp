@@ -35,6 +35,6 @@ class EventRecorder {
 
 /// A row for every moving body in order of creation: entity,x,y,vx,vy in the shortest form that
 /// reads back exactly.
-void writeState(const std::string& file, const World& world);
+void writeState(OutputFile& file, const World& world);
 
 }  // namespace quadrille::app

@@ -23,8 +23,8 @@ struct StepParameters {
 /// A contact as the resolvers hand it to observers.
 struct ContactRecord {
     double time;      ///< of the impact, s since the start of the run
-    std::uint32_t a;    ///< row of a moving body
-    std::int64_t b;     ///< row of a moving body, or -1 - row of a static one
+    std::uint32_t a;  ///< row of a moving body
+    std::int64_t b;   ///< row of a moving body, or -1 - row of a static one
     std::uint8_t axes;
     std::int8_t senseX, senseY;
     bool collided;

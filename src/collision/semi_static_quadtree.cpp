@@ -63,7 +63,8 @@ SemiStaticQuadtreePartitioner<Real>::SemiStaticQuadtreePartitioner(const SemiSta
 }
 
 template <class Real>
-bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, Real dt, Real reach) {
+bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, Real dt,
+                                                 Real reach) {
     ++age_;
     bool due = this->partition_.generation == 0 || bodies.revision != builtRevision_;
     if (const auto* every = std::get_if<SemiStaticQuadtree::EveryFrames>(&config_.rebuild)) {
@@ -90,7 +91,7 @@ void SemiStaticQuadtreePartitioner<Real>::rebuild(const BodyView<Real>& bodies) 
 template <class Real>
 bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies, Real reach) const {
     const auto left = [margin = this->partition_.margin - reach](std::span<const Real> now,
-                                                         const std::vector<Real>& then) {
+                                                                 const std::vector<Real>& then) {
         int count = 0;
         // Negated, so that a NaN counts as having left.
         for (std::size_t i = 0; i < now.size(); ++i) {
@@ -121,8 +122,7 @@ double SemiStaticQuadtreePartitioner<Real>::walked(const BodyView<Real>& bodies)
 /// test. Both grow in known ways, and the prices below are measured (docs/performance.md); the
 /// result is the same with any skin, so a poor choice costs time only.
 template <class Real>
-Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bodies,
-                                                       Real dt,
+Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bodies, Real dt,
                                                        Real reach) const {
     const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
     if (fixed > 0) return static_cast<Real>(fixed);

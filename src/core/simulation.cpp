@@ -92,7 +92,8 @@ const StepReport& Simulation::step() {
     s.records.clear();
     std::visit(
         [&](auto& stepper) {
-            stepper.step(s.world, s.stepsDone + 1, s.contactListeners.empty() ? nullptr : &s.records, s.report,
+            stepper.step(s.world, s.stepsDone + 1,
+                         s.contactListeners.empty() ? nullptr : &s.records, s.report,
                          s.config.profile);
         },
         s.stepper);

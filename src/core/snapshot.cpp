@@ -106,6 +106,11 @@ class SnapshotAccess {
                 const auto& f = columns.fixed;
                 for (const auto* column : {&m.x, &m.y, &m.vx, &m.vy}) out.numbers(*column);
                 out.numbers(m.entity);
+                out.number<std::uint8_t>(m.anchors.enabled);
+                if (m.anchors.enabled) {
+                    for (const auto* column : {&m.anchors.x, &m.anchors.y}) out.numbers(*column);
+                    for (const auto* c : {&m.anchors.timeX, &m.anchors.timeY}) writeColumn(out, *c);
+                }
                 for (const auto* c : {&m.halfWidth, &m.halfHeight, &m.mass}) writeColumn(out, *c);
                 for (const auto* c : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) out.numbers(*c);
                 out.numbers(f.entity);
@@ -158,6 +163,16 @@ class SnapshotAccess {
             if (column->size() != m.x.size()) in.fail("has columns of different lengths");
         }
         m.entity = in.numbers<std::uint32_t>();
+        m.anchors.enabled = in.number<std::uint8_t>() != 0;
+        if (m.anchors.enabled) {
+            for (auto* column : {&m.anchors.x, &m.anchors.y}) {
+                *column = in.numbers<Real>();
+                if (column->size() != m.x.size()) in.fail("has columns of different lengths");
+            }
+            for (auto* c : {&m.anchors.timeX, &m.anchors.timeY}) readColumn(in, *c, m.x.size());
+            // Which rows were waiting for an anchor is not recorded: look at all.
+            m.anchors.missing = m.x.size();
+        }
         for (auto* c : {&m.halfWidth, &m.halfHeight, &m.mass}) readColumn(in, *c, m.x.size());
         for (auto* column : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) {
             *column = in.numbers<Real>();

@@ -5,8 +5,19 @@
 
 namespace quadrille {
 
-SnapshotWriter::SnapshotWriter(const std::filesystem::path& target)
-    : target_(target), temporary_(target.string() + ".part"), out_(temporary_, std::ios::binary) {
+SnapshotWriter::SnapshotWriter(const std::filesystem::path& target) : target_(target) {
+    std::error_code error;
+    const auto status = std::filesystem::status(target_, error);
+    if (std::filesystem::exists(status)) {
+        // A rename would put a plain file in the place of a folder, a device or a pipe.
+        if (!std::filesystem::is_regular_file(status)) {
+            throw Error(target_.string() + ": is not a file that a snapshot can replace");
+        }
+        target_ = std::filesystem::canonical(target_);  // a link stays
+    }
+    temporary_ = target_;
+    temporary_ += ".part";
+    out_.open(temporary_, std::ios::binary);
     if (!out_) throw Error(target_.string() + ": cannot be written");
 }
 

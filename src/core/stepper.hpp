@@ -23,8 +23,8 @@ class Stepper {
 
     void setPartitioner(const SimulationConfig& config, const Vec2& worldSize);
 
-    /// One step, the `number`-th of the run, from 1. Contacts go to `records` unless it is null. Fills the report's counts and, with
-    /// `profile`, its times.
+    /// One step, the `number`-th of the run, from 1. Contacts go to `records` unless it is null.
+    /// Fills the report's counts and, with `profile`, its times.
     void step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,
               StepReport& report, bool profile);
 
@@ -35,7 +35,8 @@ class Stepper {
 
   private:
     ResolveCounts stepDiscrete(const BodyView<Real>& bodies, std::uint64_t number,
-                               std::vector<ContactRecord>* records, StepReport& report, PhaseClock& clock);
+                               std::vector<ContactRecord>* records, StepReport& report,
+                               PhaseClock& clock);
     ResolveCounts stepContinuous(const BodyView<Real>& bodies, std::uint64_t number,
                                  std::vector<ContactRecord>* records, StepReport& report,
                                  PhaseClock& clock);
@@ -47,7 +48,7 @@ class Stepper {
     StepParameters<Real> parameters_;
     std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
-    std::unique_ptr<Resolver<Real>> resolver_;                 // of a discrete law, or
+    std::unique_ptr<Resolver<Real>> resolver_;                // of a discrete law, or
     std::unique_ptr<SequentialContinuous<Real>> continuous_;  // of the continuous one
     StepTimes times_;
 };

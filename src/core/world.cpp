@@ -477,8 +477,8 @@ std::size_t World::bytes() const {
                               const auto& f = columns.fixed;
                               return size(m.x) + size(m.y) + size(m.vx) + size(m.vy) +
                                      size(m.entity) + m.halfWidth.bytes() + m.halfHeight.bytes() +
-                                     m.mass.bytes() + size(f.x) + size(f.y) + size(f.halfWidth) +
-                                     size(f.halfHeight) + size(f.entity);
+                                     m.mass.bytes() + m.anchors.bytes() + size(f.x) + size(f.y) +
+                                     size(f.halfWidth) + size(f.halfHeight) + size(f.entity);
                           },
                           columns_);
 }

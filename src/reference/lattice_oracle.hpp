@@ -16,8 +16,9 @@ namespace quadrille::reference {
 /// the distance of contact, and a hit on a static box mirrors one, so that a and v stay integers
 /// (in units of a power of two that is found from the input) and event times are quotients of
 /// 64-bit integers, compared by 128-bit products. Order, ties, corner hits and the strictness of
-/// "edges level" are exact. The rules are those of Oracle, except that boxes must not overlap at
-/// the start; then they never do.
+/// "edges level" are exact; what Oracle says of a box that meets two others at once holds here too.
+/// The rules are those of Oracle, except that boxes must not overlap at the start; then they never
+/// do.
 class LatticeOracle {
   public:
     /// Throws std::invalid_argument, naming the box, for what Oracle refuses, for unequal masses,

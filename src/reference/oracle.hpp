@@ -47,6 +47,9 @@ struct Event {
 ///   both penetrations are mere rounding, it is a corner: both axes, or none.
 /// - Simultaneous events fire in the order of their ids (i, j); what a collision sets off at the
 ///   same instant is queued in the same order. So chains and cradles resolve pair by pair.
+///   Where a box meets two others at one instant and not in a row (it lands on two that lie side by
+///   side, or touches a corner as well), the mathematical motion has no unique continuation: the
+///   order of ids is then a choice, and reversing all velocities need not return to the start.
 /// - A rebound slower than `restSpeed` is none if restitution < 1 or if gravity presses the pair
 ///   together: two free boxes go on with their common velocity; a box on a static or resting box
 ///   rests there, without acceleration, until something hits it or its support, or it slides off.

@@ -133,8 +133,8 @@ TEST(Usage, OneOutputOnStdout) {
 }
 
 TEST(Usage, LawThatIsNotAvailableYet) {
-    expectUsageError({"--law", "continuous"}, {"continuous", "not available yet"});
-    expectUsageError({"--law", "continuous", "--precision", "float"}, {"not available yet"});
+    expectUsageError({"--law", "continuous", "--scene", "pile"}, {"continuous", "gravity"});
+    expectUsageError({"--law", "continuous", "--rebuild", "every:10"}, {"misses no pair"});
 }
 
 TEST(Usage, OptionsThatAreNotAvailableYet) {

@@ -76,8 +76,9 @@ TEST_P(Gravity, ABoxThatBouncesKeepsItsEnergyAndItsPeriod) {
         const double now = v * v / 2 + g * (positionOf(sim, box).y() - 1);
         worst = std::max(worst, std::abs(now / start - 1));
     }
-    RecordProperty("energy", std::to_string(worst));
-    EXPECT_LT(worst, 0.1) << worst;
+    // Velocity and position of the step's rule, v += a dt; x += v dt, belong to times half a step
+    // apart, so that the sum swings by a dt v / 2, 1.76 % of it at the floor, and may not drift.
+    EXPECT_LT(worst, 0.02);
 
     ASSERT_GT(hits.size(), 10u);
     const double period = (hits.back() - hits.front()) / double(hits.size() - 1);

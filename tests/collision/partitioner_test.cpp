@@ -88,11 +88,9 @@ TYPED_TEST(PartitionerTest, QuadtreeIsCompleteAndUnique) {
             SCOPED_TRACE("depth " + std::to_string(depth) + ", per cell " + std::to_string(most));
             // Deep trees cut the edges of large boxes into very many cells.
             const bool large = most < 20 && depth >= 10;
-            const int cases = !large ? 12 : depth == 15 ? 3 : 8;
-            this->expectCompleteAndWellFormed(Quadtree{depth, most}, cases,
-                                              !large        ? 120
-                                              : depth == 15 ? 10
-                                                            : 30);
+            const int cases = !large ? 10 : depth == 10 ? 5 : 2;
+            const int bodies = depth < 10 ? 100 : !large ? 50 : depth == 10 ? 16 : 5;
+            this->expectCompleteAndWellFormed(Quadtree{depth, most}, cases, bodies);
         }
     }
 }
@@ -100,8 +98,9 @@ TYPED_TEST(PartitionerTest, QuadtreeIsCompleteAndUnique) {
 TYPED_TEST(PartitionerTest, SemiStaticQuadtreeIsCompleteAndUniqueWhenBuilt) {
     for (const double width : {0.0, 1e-30, 1e-4, 0.3, 5.0, 70.0, 1e6}) {
         SCOPED_TRACE("skin " + std::to_string(width));
-        this->expectCompleteAndWellFormed(SemiStaticQuadtree{10, 20, Skin{width}}, 12, 120);
-        this->expectCompleteAndWellFormed(SemiStaticQuadtree{6, 3, Skin{width}}, 12, 60);
+        const int bodies = width == 70 ? 30 : 80;
+        this->expectCompleteAndWellFormed(SemiStaticQuadtree{8, 20, Skin{width}}, 8, bodies);
+        this->expectCompleteAndWellFormed(SemiStaticQuadtree{6, 3, Skin{width}}, 8, bodies);
     }
 }
 

@@ -179,19 +179,19 @@ TYPED_TEST(SkinTest, NoPairIsMissedAmongLargeSlowBoxesThatAlmostTouch) {
         World world({.size = {4096, 4096}});
         world.setPrecision(precisionOf<Real>);
         const double ulp = 1000 * epsilon;
+        const double skin = ulp * std::pow(10, random.uniform(-3, 0.3));
         // Close to the origin, where positions are finer than sizes.
         const double width = random.uniform(500, 1000);
         const Vec2 size(width, random.uniform(500, 1000));
         const double near = random.uniform(-2, 2) * ulp;
         const double far = width + random.uniform(-3, 3) * ulp;
-        const auto body = [&] { return moving(random.uniform(-1, 1) * ulp / dt); };
+        const auto body = [&] { return moving(random.uniform(-0.3, 0.3) * skin / dt); };
         makeBox(world, {near, 0}, body(), size);
         makeBox(world, {far, 0}, body(), size);
         makeBox(world, {near - width, 0}, body(), size);
         const bool automatic = seed % 2 == 0;
-        typename TestFixture::Run run(
-            SemiStaticQuadtree{10, 20, Skin{automatic ? 0 : ulp * random.uniform(0.01, 2)}},
-            world.config().size);
+        typename TestFixture::Run run(SemiStaticQuadtree{10, 20, Skin{automatic ? 0 : skin}},
+                                      world.config().size);
         const auto bodies = world.template bodies<Real>();
         for (int step = 0; step < 12; ++step) {
             ASSERT_EQ(run.update(bodies), "")

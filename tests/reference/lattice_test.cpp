@@ -30,6 +30,10 @@ TEST(Rational, IsRoundedOnceToTheNearestDouble) {
     const std::int64_t one = std::int64_t{1} << 53;
     EXPECT_EQ(nearestDouble(Rational(one + 1, 1), 0), double(one)) << "a tie goes to even";
     EXPECT_EQ(nearestDouble(Rational(2 * one + 2 + 1, 2), 0), double(one + 2)) << "just above it";
+    // p/q exceeds the middle of two doubles by 2^-54/q only; the lower one is even.
+    const std::int64_t p = 4569493441301475534;
+    const std::int64_t q = 4611686018427400255;
+    EXPECT_EQ(nearestDouble(Rational(p, q), 53), 8924791877541921.0);
 }
 
 TEST(Lattice, RefusesWhatItCannotDoExactly) {

@@ -1,0 +1,75 @@
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <quadrille/quadrille.hpp>
+
+#include "reference/oracle.hpp"
+
+// The law `continuous` against the event-driven oracle, which shares no code with it: unequal sizes
+// and masses, static boxes.
+
+namespace quadrille {
+namespace {
+
+void compareWithOracle(std::uint64_t seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    World world({.size = {200, 150}});
+    world.addWalls({.thickness = 20});
+    std::vector<reference::Box> boxes;
+    const auto add = [&](const Vec2& position, const Vec2& size, const Vec2& velocity, double mass,
+                         bool isStatic) {
+        boxes.push_back({position, velocity, size, mass, isStatic});
+    };
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const Entity wall = world.at(i);
+        add(world.get<Transform>(wall).position, world.get<BoxCollider>(wall).size, {0, 0}, 1,
+            true);
+    }
+    // A lattice of places, each with a box that fits it.
+    for (int row = 0; row < 9; ++row) {
+        for (int column = 0; column < 12; ++column) {
+            const Vec2 place(-90 + 15.0 * column, -66 + 15.0 * row);
+            const Vec2 size(random.uniform(1, 12), random.uniform(1, 12));
+            const bool isStatic = random.uniform(0, 1) < 0.05;
+            const double mass = random.uniform(0, 1) < 0.5 ? 1 : random.uniform(0.1, 10);
+            const Vec2 velocity =
+                isStatic ? Vec2(0, 0) : Vec2(random.uniform(-30, 30), random.uniform(-30, 30));
+            const Vec2 position = place + Vec2(random.uniform(-1, 1), random.uniform(-1, 1));
+            add(position, size, velocity, mass, isStatic);
+            world.add(world.create(), Transform{position}, BoxCollider{size},
+                      PhysicsBody{velocity, isStatic ? 1 : mass, isStatic});
+        }
+    }
+    Simulation sim(std::move(world), {.partitioner = Quadtree{8, 6}, .law = Law::Continuous});
+    std::vector<Contact> contacts;
+    sim.onContact([&](const Contact& c) { contacts.push_back(c); });
+    const double energy = kineticEnergy(sim.world());
+    sim.run(60);
+
+    reference::Oracle oracle(boxes, Vec2(0, 0), 1);
+    oracle.runUntil(1);
+    const auto& events = oracle.events();
+    ASSERT_EQ(contacts.size(), events.size());
+    ASSERT_GT(events.size(), 200u);
+    for (std::size_t k = 0; k < events.size(); ++k) {
+        SCOPED_TRACE("event " + std::to_string(k));
+        ASSERT_NEAR(contacts[k].time, events[k].time, 1e-9);
+        ASSERT_EQ(contacts[k].rowA, events[k].i);
+        ASSERT_EQ(contacts[k].rowB, events[k].j);
+        ASSERT_EQ(static_cast<int>(contacts[k].axis), events[k].axis);
+    }
+    EXPECT_NEAR(kineticEnergy(sim.world()) / energy, 1, 1e-13);
+}
+
+TEST(ContinuousAgainstOracle, RandomScenes) {
+    std::random_device device;
+    for (int i = 0; i < 20; ++i) compareWithOracle(device());
+    compareWithOracle(1);
+}
+
+}  // namespace
+}  // namespace quadrille
