@@ -46,15 +46,26 @@ class CandidatePairs {
                  const Sizes& sizes) {
         movingCount_ = 0;
         fixed_.clear();
-        // A little more than the margins of both, for the rounding of the distances walked since.
-        const Real inflation =
-            2 * partition.margin * (1 + 16 * std::numeric_limits<Real>::epsilon());
+        // A little more than the margins of both, for the rounding of the distances walked since
+        // and of the sums of half extents.
+        constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
+        const Real inflation = 2 * partition.margin * (1 + eps) + largest(bodies) * eps;
         walk_.walk(
             bodies, partition, sizes, inflation,
             [&](std::uint32_t a, const std::uint32_t* others, Bits hits) {
                 append(a, others, hits);
             },
             [&](StaticPair p) { fixed_.push_back(p); });
+    }
+
+    /// The largest half extent of any body.
+    static Real largest(const BodyView<Real>& bodies) {
+        Real result = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
+        for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
+                                  bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
+            for (const Real value : values) result = std::max(result, value);
+        }
+        return result;
     }
 
     /// Most bodies have up to two neighbours in a block, and how many is a coin toss that a branch

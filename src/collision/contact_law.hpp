@@ -119,17 +119,24 @@ QUADRILLE_HD inline bool collide(AxisState<Real>& a, AxisState<Real>& b, Real ma
     return approaching;
 }
 
-/// The law `impulse` for a moving body against a static one. Gravity has gone on since the impact:
-/// the velocity of the impact is the one that is reflected, and what is left of the step
-/// accelerates the body anew. A body that would still go in afterwards rests on the surface.
+/// Change of velocity between the impact and the velocity of the step. The rule v += g dt, x += v
+/// dt gives the velocity of the middle of the step, and conserves v^2 / 2 - g x + g dt v / 2;
+/// reflecting about this change keeps that sum in a bounce.
+template <class Real>
+QUADRILLE_HD inline Real gainedSinceImpact(Real gravity, Real since, Real dt) {
+    return gravity * (since - dt / 2);
+}
+
+/// The law `impulse` for a moving body against a static one. The velocity of the impact is what is
+/// reflected: that of the step less what gravity has `gained` since. A body that would still go in
+/// afterwards rests on the surface.
 template <class Real>
 QUADRILLE_HD inline bool collideStatic(AxisState<Real>& a, Real fixedPosition, Real restitution,
                                        Real reach, Real sense, Real since, bool overlapBefore,
-                                       Real gravity) {
+                                       Real gained) {
     const bool approaching = a.velocity * sense > 0;
     if (approaching) {
         const Real old = a.velocity;
-        const Real gained = gravity * since;
         a.velocity = gained - restitution * (old - gained);
         if (a.velocity * sense > 0) a.velocity = 0;
         a.position += (a.velocity - old) * since;

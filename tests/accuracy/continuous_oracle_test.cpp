@@ -54,7 +54,7 @@ void compareWithOracle(std::uint64_t seed) {
     oracle.runUntil(1);
     const auto& events = oracle.events();
     ASSERT_EQ(contacts.size(), events.size());
-    ASSERT_GT(events.size(), 200u);
+    ASSERT_GT(events.size(), 50u);
     for (std::size_t k = 0; k < events.size(); ++k) {
         SCOPED_TRACE("event " + std::to_string(k));
         ASSERT_NEAR(contacts[k].time, events[k].time, 1e-9);
