@@ -16,11 +16,7 @@ namespace quadrille {
 /// One step's update, for bodies that move no further in the step.
 template <class Real>
 bool update(Partitioner<Real>& partitioner, const BodyView<Real>& bodies, double dt = 1.0 / 60) {
-    if constexpr (requires { partitioner.update(bodies, Real(dt), Real(0)); }) {
-        return partitioner.update(bodies, Real(dt), Real(0));
-    } else {
-        return partitioner.update(bodies, Real(dt));
-    }
+    return partitioner.update(bodies, Real(dt), Real(0));
 }
 
 /// Pairs of bodies, sorted; static bodies count on after the moving ones, as in Cells.
