@@ -71,7 +71,7 @@ class CandidatePairs {
     /// Most bodies have up to two neighbours in a block, and how many is a coin toss that a branch
     /// would lose: two pairs are written always, and counted if they are there.
     void append(std::uint32_t a, const std::uint32_t* others, Bits hits) {
-        if (movingCount_ + hitBlock < Real >> moving_.size()) {
+        if (moving_.size() < movingCount_ + hitBlock<Real>) {
             moving_.resize(std::max<std::size_t>(1024, moving_.size() + moving_.size() / 2));
         }
         const auto put = [&] {

@@ -23,8 +23,9 @@ class CanonicalSort {
         const Real perSecond = static_cast<Real>(later) / dt;
         const auto bucketOf = [&](const PendingContact<Real>& c) -> std::uint64_t {
             if (c.sinceStart == 0) return c.priority * atStart >> 32;
-            const auto bucket = static_cast<std::uint64_t>(c.sinceStart * perSecond);
-            return atStart + std::min(bucket, later - 1);
+            const Real bucket = c.sinceStart * perSecond;
+            const bool inside = bucket < static_cast<Real>(later - 1);
+            return atStart + (inside ? static_cast<std::uint64_t>(bucket) : later - 1);
         };
 
         ends_.assign(contacts.size(), 0);

@@ -46,7 +46,8 @@ bool resolveStaticAxis(std::span<Real> position, std::span<Real> velocity,
                        const StepParameters<Real>& step) {
     AxisState<Real> a{position[c.a], velocity[c.a]};
     const Real since = c.overlapBefore ? Real(0) : step.dt - c.sinceStart;
-    const Real gained = c.overlapBefore != 0 ? Real(0) : gainedSinceImpact(gravity, since, step.dt);
+    // An old overlap counts as an impact at the start of the step, as its sinceStart says.
+    const Real gained = gainedSinceImpact(gravity, step.dt - c.sinceStart, step.dt);
     const bool collided = collideStatic(a, fixedPosition, step.restitution, half[c.a] + fixedHalf,
                                         sense, since, c.overlapBefore != 0, gained);
     position[c.a] = a.position;

@@ -42,26 +42,38 @@ TEST_P(Gravity, ABoxAtRestStaysAndDoesNotSink) {
     }
 }
 
-TEST_P(Gravity, ABoxAtRestStaysWhereverRoundingPutsIt) {
-    // Where floor and box lie decides whether rounding lets them overlap by an ulp.
+/// Where floor and box lie decides whether rounding lets them overlap by an ulp.
+void expectRest(SimulationConfig config, double tolerance) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
-        const double e = double(seed % 3) / 2;
-        SCOPED_TRACE("seed " + std::to_string(seed) + ", restitution " + std::to_string(e));
         const double floor = random.uniform(-300, 300);
         const double thickness = random.uniform(1, 30);
         const double side = random.uniform(1, 30);
         World world;
         makeBox(world, {0, floor - thickness / 2}, fixed(), {200, thickness});
         const Entity box = makeBox(world, {0, floor + side / 2}, {}, {side, side});
-        Simulation sim(std::move(world), config(e));
+        Simulation sim(std::move(world), config);
         const double start = positionOf(sim, box).y();
-        const double rounding = GetParam() == Precision::Double ? 1e-12 : 3e-4;
         for (int i = 0; i < 200; ++i) {
             sim.step();
-            ASSERT_NEAR(positionOf(sim, box).y(), start, rounding) << "step " << i;
+            ASSERT_NEAR(positionOf(sim, box).y(), start, tolerance) << "step " << i;
         }
     }
+}
+
+TEST_P(Gravity, ABoxAtRestStaysWhereverRoundingPutsIt) {
+    const double rounding = GetParam() == Precision::Double ? 1e-12 : 3e-4;
+    for (const double e : {0.0, 0.5}) {
+        SCOPED_TRACE(e);
+        expectRest(config(e), rounding);
+    }
+}
+
+TEST_P(Gravity, AnElasticBoxAtRestStaysWhereverRoundingPutsIt) {
+    // Rounding may add up here, as nothing takes energy out. A box that reflects the velocity of
+    // one step, though it never fell, hops by g dt^2 / 8 = 0.007.
+    expectRest(config(1), GetParam() == Precision::Double ? 1e-10 : 2e-3);
 }
 
 TEST_P(Gravity, ABoxThatFallsComesToRestOnTheFloor) {
