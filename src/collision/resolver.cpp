@@ -36,11 +36,12 @@ std::string_view name(ResolverKind resolver) {
 }
 
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeResolver(ResolverKind kind, Law law) {
-    if (kind != ResolverKind::Sequential) {
-        throw NotAvailable("the resolver '" + std::string(name(kind)) + "' is not available yet");
+std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config) {
+    if (config.resolver != ResolverKind::Sequential) {
+        throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
+                           "' is not available yet");
     }
-    switch (law) {
+    switch (config.law) {
         case Law::Baseline:
             return std::make_unique<SequentialBaseline<Real>>();
         case Law::Impulse:
@@ -48,10 +49,10 @@ std::unique_ptr<Resolver<Real>> makeResolver(ResolverKind kind, Law law) {
         case Law::Continuous:
             break;
     }
-    throw NotAvailable("the law '" + std::string(name(law)) + "' is not available yet");
+    throw NotAvailable("the law '" + std::string(name(config.law)) + "' is not available yet");
 }
 
-template std::unique_ptr<Resolver<double>> makeResolver(ResolverKind, Law);
-template std::unique_ptr<Resolver<float>> makeResolver(ResolverKind, Law);
+template std::unique_ptr<Resolver<double>> makeResolver(const SimulationConfig&);
+template std::unique_ptr<Resolver<float>> makeResolver(const SimulationConfig&);
 
 }  // namespace quadrille

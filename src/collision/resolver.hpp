@@ -52,8 +52,8 @@ class Resolver {
     virtual std::size_t bytes() const = 0;
 };
 
-/// Throws NotAvailable if this version has no such resolver for the law.
+/// The resolver of a discrete law. Throws NotAvailable if this version has none of that kind.
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeResolver(ResolverKind kind, Law law);
+std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config);
 
 }  // namespace quadrille

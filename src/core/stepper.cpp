@@ -73,7 +73,7 @@ void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& w
         }
         continuous_ = std::make_unique<SequentialContinuous<Real>>();
     } else {
-        resolver_ = makeResolver<Real>(config.resolver, config.law);
+        resolver_ = makeResolver<Real>(config);
     }
     partitioner_ = std::move(partitioner);
 }
