@@ -67,8 +67,10 @@ struct Simulation::Impl {
           config(std::move(c)),
           stepper(makeStepper(config, world.config().size)) {
         world.setPrecision(config.precision);
+        dropUnusedAnchors();
     }
 
+    void dropUnusedAnchors();
     void collectContacts();
     void notify();
 };
@@ -100,6 +102,12 @@ const StepReport& Simulation::step() {
     ++s.stepsDone;
     s.notify();
     return s.report;
+}
+
+/// Discrete laws move bodies without their anchors; `continuous` must not find old ones later.
+void Simulation::Impl::dropUnusedAnchors() {
+    if (config.law == Law::Continuous) return;
+    world.visitBodies([](const auto& bodies) { *bodies.moving.anchors = {}; });
 }
 
 /// Contacts are complete before a listener sees one: it may create and destroy bodies.
@@ -167,9 +175,20 @@ void Simulation::addSystem(std::function<void(World&, double)> system) {
 void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
     SimulationConfig config = impl_->config;
     config.partitioner = partitioner;
-    std::visit([&](auto& s) { s.setPartitioner(config, impl_->world.config().size); },
-               impl_->stepper);
-    impl_->config = std::move(config);
+    reconfigure(config);
+}
+
+void Simulation::reconfigure(const SimulationConfig& config) {
+    Impl& s = *impl_;
+    validate(config);
+    if (config.dt != s.config.dt) throw Error("simulation: dt cannot change during a run");
+    if (config.precision != s.config.precision) {
+        throw Error("simulation: the precision cannot change during a run");
+    }
+    AnyStepper stepper = makeStepper(config, s.world.config().size);
+    s.config = config;
+    s.stepper = std::move(stepper);
+    s.dropUnusedAnchors();
 }
 
 const Cells& Simulation::cells() const {

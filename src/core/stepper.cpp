@@ -50,18 +50,13 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
     : parameters_{0, static_cast<Real>(config.dt), static_cast<Real>(config.gravity.x()),
                   static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)},
       times_(config.dt) {
-    setPartitioner(config, worldSize);
     if (config.countMissedPairs) {
         missedPairs_ = std::make_unique<MissedPairCounter<Real>>(worldSize);
     }
-}
-
-template <class Real>
-void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& worldSize) {
-    // The resolver remembers pairs of the partition that it saw last, so both are replaced.
-    auto partitioner = makePartitioner<Real>(config.partitioner, worldSize);
+    // The resolver remembers pairs of the partition that it saw last, so both are made at once.
+    partitioner_ = makePartitioner<Real>(config.partitioner, worldSize);
     if (config.law == Law::Continuous) {
-        if (!partitioner->partition().complete) {
+        if (!partitioner_->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
         if (config.resolver != ResolverKind::Sequential) {
@@ -75,7 +70,6 @@ void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& w
     } else {
         resolver_ = makeResolver<Real>(config);
     }
-    partitioner_ = std::move(partitioner);
 }
 
 template <class Real>
