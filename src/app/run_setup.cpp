@@ -29,8 +29,9 @@ Start loadStart(const Options& options) {
                 .law = snapshot.law,
                 .stepsDone = snapshot.stepsDone};
     }
-    Scene scene =
-        loadScene(findScene(options.scene), {.entities = options.entities, .seed = options.seed});
+    Scene scene = loadScene(
+        findScene(options.scene),
+        {.entities = options.entities, .seed = options.seed, .renderers = !options.headless});
     return {.scene = std::move(scene.name),
             .seed = scene.seed,
             .world = std::move(scene.world),
@@ -50,14 +51,13 @@ ResolverKind chooseResolver(const Options& options) {
     return ResolverKind::Sequential;
 }
 
-/// The report's policy misses pairs; how many is part of its result.
+}  // namespace
+
 bool missesPairs(const PartitionerConfig& partitioner) {
     const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
     return tree != nullptr &&
            std::holds_alternative<SemiStaticQuadtree::EveryFrames>(tree->rebuild);
 }
-
-}  // namespace
 
 Run setUp(const Options& options) {
     Start start = loadStart(options);

@@ -27,4 +27,7 @@ class NoDevice : public Error {
 /// that cannot run is replaced by the sequential one, with a warning on stderr.
 Run setUp(const Options& options);
 
+/// The report's policy misses pairs; how many is part of its result, and is counted.
+bool missesPairs(const PartitionerConfig& partitioner);
+
 }  // namespace quadrille::app
