@@ -44,7 +44,8 @@ void explain(std::ostream& out, const Run& run, bool window) {
         : f.massesDiffer ? ""
                          : "equal masses swap their velocities");
     row(out, f.listeners, "contact listeners", f.listeners ? "" : "no list of events is made");
-    row(out, f.profile, "profile", f.profile ? "" : "no clock is read inside a step");
+    const bool profile = f.profile || window;
+    row(out, profile, "profile", profile ? "" : "no clock is read inside a step");
     row(out, window, "renderer",
         window ? "a colour for each body" : "headless: no colours are stored");
     if (world.movingCount() > 0) {

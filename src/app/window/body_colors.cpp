@@ -9,7 +9,7 @@ namespace quadrille::app {
 
 namespace {
 
-constexpr Color movingColor{0x4f, 0x9d, 0xdb}, staticColor{0x33, 0x44, 0x55};
+constexpr Color movingColor{0x4f, 0x9d, 0xdb}, staticColor{0x26, 0x30, 0x3b};
 
 template <class Real>
 void colorBySpeed(const BodyView<Real>& bodies, std::span<Color> colors) {

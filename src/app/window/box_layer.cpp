@@ -35,11 +35,12 @@ constexpr const char* fragmentSource = R"(
 flat in vec2 halfPixels;
 flat in vec4 boxColor;
 in vec2 offset;
+uniform float opacity;
 out vec4 pixel;
 void main() {
     vec2 covered = min(offset + 0.5, halfPixels) - max(offset - 0.5, -halfPixels);
     covered = clamp(covered, 0.0, 1.0);
-    pixel = vec4(boxColor.rgb, boxColor.a * covered.x * covered.y);
+    pixel = vec4(boxColor.rgb, boxColor.a * opacity * covered.x * covered.y);
 }
 )";
 
@@ -70,7 +71,8 @@ float* relative(std::span<const Real> values, double origin, float* out) {
 BoxLayer::BoxLayer()
     : program_(vertexSource, fragmentSource),
       scale_(program_.uniform("scale")),
-      pixels_(program_.uniform("pixels")) {
+      pixels_(program_.uniform("pixels")),
+      opacity_(program_.uniform("opacity")) {
     glBindVertexArray(array_.id());
     glBindBuffer(GL_ARRAY_BUFFER, x_.id());
     instanceAttribute(0, 1, GL_FLOAT, false);
@@ -119,11 +121,12 @@ void BoxLayer::setColors(std::span<const Color> colors) {
                  GL_STREAM_DRAW);
 }
 
-void BoxLayer::draw(const Viewport& viewport) const {
+void BoxLayer::draw(const Viewport& viewport, double opacity) const {
     const Vec2 scale = viewport.clipScale();
     program_.use();
     glUniform2f(scale_, float(scale.x()), float(scale.y()));
     glUniform1f(pixels_, float(viewport.pixelsPerUnit()));
+    glUniform1f(opacity_, float(opacity));
     glBindVertexArray(array_.id());
     glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count_));
     glBindVertexArray(0);

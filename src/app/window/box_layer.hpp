@@ -30,11 +30,12 @@ class BoxLayer {
     /// One colour a body: the static ones, then the moving ones; alpha 0 hides a body.
     void setColors(std::span<const Color> colors);
 
-    void draw(const Viewport& viewport) const;
+    /// `opacity` below 1 lets what was drawn before shine through.
+    void draw(const Viewport& viewport, double opacity) const;
 
   private:
     GlProgram program_;
-    GLint scale_, pixels_;
+    GLint scale_, pixels_, opacity_;
     GlVertexArray array_;
     GlBuffer x_, y_, halfSize_, color_;
     std::size_t count_ = 0;

@@ -6,7 +6,7 @@ namespace quadrille::app {
 
 namespace {
 
-constexpr double leastZoom = 1e-9, mostZoom = 1e6;
+constexpr double leastZoom = 1e-7, mostZoom = 1e5;
 
 }  // namespace
 

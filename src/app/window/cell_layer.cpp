@@ -50,7 +50,7 @@ void main() {
     vec2 high = toPixels(cell.xy + cell.zw);
     vec2 size = side == 0 ? vec2(thickness, high.y - low.y) : vec2(high.x - low.x, thickness);
     float width = max(high.x - low.x, high.y - low.y) / thickness;
-    fill = vec4(0.62, 0.70, 0.78, 0.55 * smoothstep(1.0, 8.0, width));
+    fill = vec4(0.62, 0.70, 0.78, 0.40 * smoothstep(1.0, 8.0, width));
     gl_Position = vec4((low + corner * size) / pixels * 2.0 - 1.0, 0.0, 1.0);
 }
 )";

@@ -27,12 +27,13 @@ bool choose(const char* label, int& chosen, const Names& names) {
     return changed;
 }
 
+bool dragInt(const char* label, int& value, float perPixel, int least, int most) {
+    return ImGui::DragInt(label, &value, perPixel, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
+}
+
 bool editTree(int& maxDepth, int& maxPerCell) {
-    bool changed =
-        ImGui::SliderInt("max depth", &maxDepth, 0, 15, "%d", ImGuiSliderFlags_AlwaysClamp);
-    changed |= ImGui::SliderInt("max per cell", &maxPerCell, 1, 1000, "%d",
-                                ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-    return changed;
+    const bool changed = dragInt("max depth", maxDepth, 0.1f, 0, 15);
+    return dragInt("max per cell", maxPerCell, 0.25f, 1, 1'000'000) || changed;
 }
 
 bool editRebuild(decltype(SemiStaticQuadtree::rebuild)& rebuild) {
@@ -58,8 +59,7 @@ bool editRebuild(decltype(SemiStaticQuadtree::rebuild)& rebuild) {
         skin->width = width;
         return true;
     }
-    return policy == 2 &&
-           ImGui::SliderInt("frames", &every->frames, 1, 120, "%d", ImGuiSliderFlags_AlwaysClamp);
+    return policy == 2 && dragInt("frames", every->frames, 0.2f, 1, 1000);
 }
 
 bool editParameters(PartitionerConfig& config) {
@@ -89,7 +89,8 @@ bool editParameters(PartitionerConfig& config) {
 
 void showRunPanel(const PanelContext& context) {
     Workbench& bench = context.bench;
-    if (!sectionHeader("Run")) return;
+    const std::string title = "Run: " + bench.session().run().scene + "###run";
+    if (!sectionHeader(title.c_str())) return;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
     if (ImGui::Button(bench.paused() ? "Go on" : "Pause", {width, 0})) bench.togglePause();
@@ -144,14 +145,16 @@ void showDisplayPanel(const PanelContext& context) {
     if (choose("colour", colorBy, std::array{"by entity", "by speed", "by cell"})) {
         view.colorBy = static_cast<ColorBy>(colorBy);
     }
-    const float half = ImGui::GetContentRegionAvail().x / 2;
-    ImGui::Checkbox("gridlines", &view.overlays.gridlines);
-    ImGui::SameLine(half);
-    ImGui::Checkbox("heat map", &view.overlays.heatMap);
+    // As wide as their words: equal columns would be too narrow for the longest.
+    const float room = ImGui::GetContentRegionAvail().x;
+    ImGui::Checkbox("grid", &view.overlays.gridlines);
+    ImGui::SameLine(0.23f * room);
+    ImGui::Checkbox("heat", &view.overlays.heatMap);
+    ImGui::SameLine(0.46f * room);
     if (ImGui::Checkbox("contacts", &view.overlays.contacts)) {
         context.bench.watchContacts(view.overlays.contacts);
     }
-    ImGui::SameLine(half);
+    ImGui::SameLine(0.80f * room);
     ImGui::Checkbox("vsync", &view.vsync);
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;

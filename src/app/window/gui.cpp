@@ -28,8 +28,10 @@ void applyStyle(double scale) {
     style.FrameRounding = 3;
     style.GrabRounding = 3;
     style.WindowBorderSize = 1;
-    style.WindowPadding = {10, 8};
-    style.ItemSpacing = {7, 4};
+    style.WindowPadding = {10, 7};
+    style.FramePadding = {4, 2};
+    style.ItemSpacing = {7, 3};
+    style.CellPadding = {4, 1};
     style.Colors[ImGuiCol_WindowBg] = {0.085f, 0.100f, 0.120f, 1};
     style.Colors[ImGuiCol_Border] = {0.22f, 0.25f, 0.29f, 1};
     style.Colors[ImGuiCol_FrameBg] = {0.16f, 0.19f, 0.23f, 1};

@@ -50,24 +50,20 @@ void Input::handle(const SDL_Event& event, const ScreenRect& rect, const Gui& gu
         case SDL_MOUSEBUTTONUP:
             release(event.button, rect, bench, view);
             break;
-        case SDL_MOUSEMOTION: {
+        case SDL_MOUSEMOTION:
+            mouse_ = Vec2(event.motion.x, event.motion.y);
             if (!held_) break;
-            const Vec2 now(event.motion.x, event.motion.y);
-            if (!dragged_ && (now - pressedAt_).cwiseAbs().maxCoeff() > clickPoints) {
+            if (!dragged_ && (mouse_ - pressedAt_).cwiseAbs().maxCoeff() > clickPoints) {
                 dragged_ = true;
-                view.pan(now - pressedAt_);
+                view.pan(mouse_ - pressedAt_);
             } else if (dragged_) {
                 view.pan(Vec2(event.motion.xrel, event.motion.yrel));
             }
             break;
-        }
-        case SDL_MOUSEWHEEL: {
-            int x = 0, y = 0;
-            SDL_GetMouseState(&x, &y);
-            if (gui.wantsMouse() || !rect.contains(Vec2(x, y))) break;
-            view.zoomAt(Vec2(x, y), std::pow(wheelFactor, double(event.wheel.preciseY)), rect);
+        case SDL_MOUSEWHEEL:
+            if (gui.wantsMouse() || !rect.contains(mouse_)) break;
+            view.zoomAt(mouse_, std::pow(wheelFactor, double(event.wheel.preciseY)), rect);
             break;
-        }
         case SDL_DROPFILE:
             bench.open(event.drop.file);
             SDL_free(event.drop.file);

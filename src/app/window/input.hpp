@@ -20,6 +20,7 @@ class Input {
     void release(const SDL_MouseButtonEvent& event, const ScreenRect& rect, Workbench& bench,
                  const ViewState& view);
 
+    Vec2 mouse_{0, 0};
     bool held_ = false;     // a button went down over the world
     bool dragged_ = false;  // and the mouse has moved since
     Vec2 pressedAt_{0, 0};

@@ -64,18 +64,18 @@ void showCountersPanel(const PanelContext& context) {
     const Simulation& simulation = session.simulation();
     const SimulationConfig& config = simulation.config();
     const Measures& m = context.measures;
-    row("scene", session.run().scene);
-    row("entities", grouped(simulation.world().movingCount()) + " moving, " +
-                        grouped(simulation.world().staticCount()) + " static");
+    const World& world = simulation.world();
+    const StepReport& last = context.bench.lastStep();
+    row("entities", grouped(world.movingCount()) + ", " + grouped(world.staticCount()) + " static");
     row("step, time",
         grouped(simulation.stepsDone()) + ", " + formatted("%.2f s", simulation.time()));
-    row("steps/s, pictures/s", formatted("%.0f, %.0f", m.stepsPerSecond, m.picturesPerSecond));
-    row("cells, with bodies", grouped(m.load.cells) + ", " + grouped(m.load.activeCells));
+    row("per second",
+        formatted("%.0f steps, %.0f pictures", m.stepsPerSecond, m.picturesPerSecond));
+    row("cells", grouped(m.load.cells) + ", " + grouped(m.load.activeCells) + " in use");
     row("bodies per cell",
         formatted("%.1f mean, ", m.load.meanBodies) + grouped(m.load.maxBodies) + " max");
-    const StepReport& last = context.bench.lastStep();
-    row("contacts, tested pairs", grouped(last.contacts) + ", " + grouped(last.pairsTested));
-    row("energy drift", formatted("%.2e", m.energyDrift));
+    row("contacts", grouped(last.contacts) + " of " + grouped(last.pairsTested) + " pairs");
+    row("energy drift", formatted("%.2g", m.energyDrift));
     row("missed pairs", config.countMissedPairs ? grouped(session.statistics().missedPairs())
                                                 : std::string("not measured"));
     const std::string runs(name(config.resolver));
@@ -96,7 +96,7 @@ void showFrameTimePanel(const PanelContext& context) {
     };
     for (std::size_t i = 0; i < history.size(); ++i) most = std::max(most, total(history[i]));
     const float top = niceCeiling(most);
-    const Canvas canvas(56 * context.scale);
+    const Canvas canvas(50 * context.scale);
     const float barWidth = canvas.width() / float(PhaseHistory::length);
     for (std::size_t i = 0; i < history.size(); ++i) {
         const float x = canvas.high.x - float(history.size() - i) * barWidth;
@@ -136,24 +136,24 @@ void showFrameTimePanel(const PanelContext& context) {
 void showLoadPanel(const PanelContext& context) {
     if (!sectionHeader("Bodies per cell")) return;
     const LoadHistogram& histogram = context.measures.histogram;
-    const Canvas canvas(56 * context.scale);
+    const Canvas canvas(50 * context.scale);
     const std::size_t bins = histogram.cells.size();
     if (bins == 0 || histogram.most == 0) return;
     const auto scaled = [](std::size_t count) { return std::log1p(float(count)); };
     const float barWidth = canvas.width() / float(bins);
     for (std::size_t k = 0; k < bins; ++k) {
-        const float height =
-            scaled(histogram.cells[k]) / scaled(histogram.most) * (canvas.height() - 14);
+        const float height = scaled(histogram.cells[k]) / scaled(histogram.most) *
+                             (canvas.height() - ImGui::GetFontSize() - 5);
         const float x = canvas.low.x + float(k) * barWidth;
         canvas.list.AddRectFilled({x + 0.5f, canvas.high.y - height},
                                   {x + barWidth - 0.5f, canvas.high.y}, 0xffdb9d4f);
     }
     canvas.list.AddText({canvas.low.x + 4, canvas.low.y + 1}, ImGui::GetColorU32(ImGuiCol_Text),
-                        ("cells, log; " + grouped(histogram.most) + " at most").c_str());
-    ImGui::TextDisabled("0 bodies");
-    const std::string right = std::to_string(bins * histogram.binWidth - 1);
-    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(right.c_str()).x);
-    ImGui::TextDisabled("%s", right.c_str());
+                        (grouped(histogram.most) + " cells, log").c_str());
+    const std::string range = "0 to " + grouped(bins * histogram.binWidth - 1) + " bodies";
+    canvas.list.AddText(
+        {canvas.high.x - 4 - ImGui::CalcTextSize(range.c_str()).x, canvas.low.y + 1},
+        ImGui::GetColorU32(ImGuiCol_TextDisabled), range.c_str());
 }
 
 }  // namespace quadrille::app

@@ -13,7 +13,7 @@ namespace quadrille::app {
 class PhaseHistory {
   public:
     static constexpr std::size_t rows = phaseCount + showPhaseCount;
-    static constexpr std::size_t length = 240;
+    static constexpr std::size_t length = 160;
     using Row = std::array<float, rows>;
 
     void add(const Row& row) {

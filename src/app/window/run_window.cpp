@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/interrupt.hpp"
 #include "app/window/body_colors.hpp"
@@ -45,7 +46,8 @@ class WindowRun {
     void loop();
 
   private:
-    void handleEvents();
+    void takeEvents();
+    void beginPanels();
     void wait();
     void moveCamera();
     void showPicture(bool last);
@@ -66,6 +68,7 @@ class WindowRun {
     CellLayer cells_;
     BodyColors colors_;
     Input input_;
+    std::vector<SDL_Event> events_;  // of this picture
     Measures measures_;
     PhaseHistory history_;
 
@@ -98,9 +101,12 @@ WindowRun::WindowRun(const Options& options)
 void WindowRun::loop() {
     pictureStart_ = Clock::now();
     while (true) {
-        handleEvents();
         const double elapsed = secondsSince(pictureStart_);
         pictureStart_ = Clock::now();
+        phases_ = {};
+        takeEvents();
+        beginPanels();
+        for (const SDL_Event& event : events_) input_.handle(event, rect(), gui_, bench_, view_);
         bench_.advance(elapsed);
         const RunSession& session = bench_.session();
         const bool last =
@@ -122,22 +128,37 @@ void WindowRun::wait() {
     if (resting) SDL_WaitEventTimeout(nullptr, restMilliseconds);
 }
 
-void WindowRun::handleEvents() {
+/// The panels say whose the mouse is, for one place of it in a picture: what happens after it has
+/// moved from the place of a click waits for the next.
+void WindowRun::takeEvents() {
+    events_.clear();
+    SDL_PumpEvents();
+    bool used = false;
     SDL_Event event;
-    while (SDL_PollEvent(&event) != 0) {
-        idlePictures_ = 0;
+    while (SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
+        if (used && event.type == SDL_MOUSEMOTION) break;
+        if (SDL_PollEvent(&event) == 0) break;
+        used |= event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP ||
+                event.type == SDL_MOUSEWHEEL;
+        events_.push_back(event);
         gui_.processEvent(event);
-        input_.handle(event, rect(), gui_, bench_, view_);
     }
+    if (!events_.empty()) idlePictures_ = 0;
+    size_ = window_.size();
+}
+
+void WindowRun::beginPanels() {
+    phaseStart_ = Clock::now();
     for (; view_.scaleSteps != 0; view_.scaleSteps -= view_.scaleSteps > 0 ? 1 : -1) {
         gui_.changeScale(view_.scaleSteps > 0);
     }
-    size_ = window_.size();
     if (view_.vsync != vsync_) {
         vsync_ = view_.vsync;
         hasVsync_ = window_.setVsync(vsync_);
         if (vsync_ && !hasVsync_) bench_.say("this driver has no vsync");
     }
+    gui_.beginFrame();
+    finishPhase(ShowPhase::Gui);
 }
 
 void WindowRun::moveCamera() {
@@ -166,9 +187,7 @@ void WindowRun::finishPhase(ShowPhase phase) {
 }
 
 void WindowRun::showPicture(bool last) {
-    phases_ = {};
     phaseStart_ = Clock::now();
-    gui_.beginFrame();
     moveCamera();
     measures_.update(bench_);
     showPanels({bench_, view_, measures_, history_, gui_.scale(), size_.width, size_.height});
@@ -222,7 +241,8 @@ void WindowRun::draw(const Viewport& viewport) const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     cells_.draw(viewport, view_.overlays);
-    boxes_.draw(viewport);
+    // Where cells are crowded, their bodies would hide how crowded.
+    boxes_.draw(viewport, view_.overlays.heatMap ? 0.6 : 1);
 }
 
 void WindowRun::takeScreenshots(bool last) {
