@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"--window-size", "640,480"}, Arguments{"--window-size", "9e3x480"},
         Arguments{"--speed", "0"}, Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"},
         Arguments{"--speed", "fast"}, Arguments{"--show", "cells"},
-        Arguments{"--show", "gridlines,"}, Arguments{"--color-by", "mass"}),
+        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"}),
     nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
