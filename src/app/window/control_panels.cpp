@@ -145,16 +145,15 @@ void showDisplayPanel(const PanelContext& context) {
     if (choose("colour", colorBy, std::array{"by entity", "by speed", "by cell"})) {
         view.colorBy = static_cast<ColorBy>(colorBy);
     }
-    // As wide as their words: equal columns would be too narrow for the longest.
-    const float room = ImGui::GetContentRegionAvail().x;
+    const auto apart = float(14 * context.scale);
     ImGui::Checkbox("grid", &view.overlays.gridlines);
-    ImGui::SameLine(0.23f * room);
+    ImGui::SameLine(0, apart);
     ImGui::Checkbox("heat", &view.overlays.heatMap);
-    ImGui::SameLine(0.46f * room);
+    ImGui::SameLine(0, apart);
     if (ImGui::Checkbox("contacts", &view.overlays.contacts)) {
         context.bench.watchContacts(view.overlays.contacts);
     }
-    ImGui::SameLine(0.80f * room);
+    ImGui::SameLine(0, apart);
     ImGui::Checkbox("vsync", &view.vsync);
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;

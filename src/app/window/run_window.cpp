@@ -242,7 +242,7 @@ void WindowRun::draw(const Viewport& viewport) const {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     cells_.draw(viewport, view_.overlays);
     // Where cells are crowded, their bodies would hide how crowded.
-    boxes_.draw(viewport, view_.overlays.heatMap ? 0.6 : 1);
+    boxes_.draw(viewport, view_.overlays.heatMap ? 0.5 : 1);
 }
 
 void WindowRun::takeScreenshots(bool last) {
