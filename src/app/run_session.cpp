@@ -63,7 +63,9 @@ bool RunSession::timeIsUp() const {
 }
 
 void RunSession::finish() {
-    const auto summary = summaryJson(run_, statistics_, start_);
+    auto summary = summaryJson(run_, statistics_, start_);
+    // A window always measures the phases, for its panels.
+    if (!options_.profile) summary["phases_ms"] = nullptr;
     printSummary(wordsOf(options_), summary);
     if (frames_) frames_->commit();
     if (events_) events_->commit();

@@ -1,5 +1,6 @@
 #include "app/window/sdl_window.hpp"
 
+#include <algorithm>
 #include <epoxy/gl.h>
 
 #include <quadrille/error.hpp>
@@ -48,6 +49,10 @@ SdlWindow::Size SdlWindow::size() const {
     Size size{};
     SDL_GetWindowSize(window_.get(), &size.width, &size.height);
     SDL_GL_GetDrawableSize(window_.get(), &size.pixelWidth, &size.pixelHeight);
+    // Some systems give a minimized window no size at all.
+    for (int* side : {&size.width, &size.height, &size.pixelWidth, &size.pixelHeight}) {
+        *side = std::max(*side, 1);
+    }
     return size;
 }
 

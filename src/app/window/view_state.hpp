@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "app/window/camera.hpp"
 #include "app/window_options.hpp"
 
