@@ -64,14 +64,7 @@ void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& w
         if (!partitioner->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
-        if (config.resolver != ResolverKind::Sequential) {
-            throw NotAvailable("the law 'continuous' runs on the resolver 'sequential'");
-        }
-        if (config.gravity != Vec2(0, 0) || config.restitution != 1) {
-            throw NotAvailable(
-                "the law 'continuous' knows no gravity and no restitution below 1 yet");
-        }
-        continuous_ = std::make_unique<SequentialContinuous<Real>>();
+        continuous_ = makeContinuousLaw<Real>(config);
     } else {
         resolver_ = makeResolver<Real>(config);
     }

@@ -48,8 +48,8 @@ class Stepper {
     StepParameters<Real> parameters_;
     std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
-    std::unique_ptr<Resolver<Real>> resolver_;                // of a discrete law, or
-    std::unique_ptr<SequentialContinuous<Real>> continuous_;  // of the continuous one
+    std::unique_ptr<Resolver<Real>> resolver_;         // of a discrete law, or
+    std::unique_ptr<ContinuousLaw<Real>> continuous_;  // the continuous one
     StepTimes times_;
 };
 
