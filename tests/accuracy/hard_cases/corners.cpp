@@ -1,7 +1,5 @@
 // Ties of the axes and of time.
 
-#include <array>
-
 #include "hard_cases/hard_case.hpp"
 
 namespace quadrille::accuracy {
@@ -52,6 +50,45 @@ Outcome fourOntoAFifth(const Setup& setup) {
                    "the fifth rests " + number(centre.norm(), 2) + " px aside", detail);
 }
 
+/// Columns of squares that fall onto a floor at speeds of their own and touch each other and the
+/// floor at one instant, which no double holds, so that rounding orders the hits. Each
+/// leaves as fast as it came.
+Outcome columnsOntoAFloor(const Setup& setup) {
+    constexpr int height = 6;
+    constexpr double side = 3;
+    constexpr double instant = 28.0 / 39;  // s
+    int through = 0;
+    int wrong = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        Random random(seed);
+        std::vector<Body> bodies;
+        std::vector<double> speeds;
+        for (int i = 0; i < height; ++i) {
+            // From the floor up, each is faster than the one below, which it reaches at the
+            // instant.
+            speeds.push_back((i == 0 ? 0 : speeds.back()) +
+                             static_cast<double>(random.integer(1, 5)));
+            const double y = side * (i + 0.5) + speeds.back() * instant;
+            bodies.push_back({{0, y}, {0, -speeds.back()}, {side, side}});
+        }
+        bodies.push_back({{0, -10}, {0, 0}, {100, 20}, 1, true});
+        Simulation sim = simulate(setup, bodies);
+        sim.run(180);
+        bool left = false;
+        bool same = true;
+        for (std::size_t i = 0; i < height; ++i) {
+            left = left || position(sim, i).y() < side / 2 - 1e-3;
+            same = same && velocity(sim, i).y() == speeds[i];
+        }
+        through += left ? 1 : 0;
+        wrong += same ? 0 : 1;
+    }
+    const std::string detail =
+        std::to_string(through) + " through, " + std::to_string(wrong) + " with other speeds";
+    if (through > 0) return {"through the floor in " + std::to_string(through) + " of 200", detail};
+    return exactIf(wrong == 0, "other speeds in " + std::to_string(wrong) + " of 200", detail);
+}
+
 }  // namespace
 
 std::vector<HardCase> cornerCases() {
@@ -63,7 +100,9 @@ std::vector<HardCase> cornerCases() {
              fourOntoAFifth,
              "1 of 4 come back",
              {"the fifth rests 0.024 px aside", "the fifth rests 0.012 px aside"},
-             "exact"}};
+             "exact"},
+            {"ColumnsOntoAFloor", "columns of 6 onto a floor, all at one instant",
+             columnsOntoAFloor, "other speeds in 200 of 200", "exact", "exact"}};
 }
 
 }  // namespace quadrille::accuracy
