@@ -8,8 +8,6 @@
 
 #include <quadrille/error.hpp>
 
-#include "collision/canonical_order.hpp"
-
 namespace quadrille {
 
 namespace {
@@ -25,6 +23,14 @@ constexpr double restSpeed = 1e-6;
 constexpr double creepSpeed = 1e-9;
 
 constexpr std::uint8_t axisBit(int axis) { return axis == 0 ? axisX : axisY; }
+
+/// Whether a distance d that changes by u a second comes within reach during a time h: takes no
+/// division, and is true for few.
+template <class Real>
+bool comesNear(Real d, Real u, Real reach, Real h, Real slack) {
+    const Real half = u * (h / 2);
+    return std::abs(d + half) < reach + std::abs(half) + slack;
+}
 
 double acceleration(const StraightPath&) { return 0; }
 double acceleration(const FallingPath& path) { return path.acceleration; }
@@ -52,6 +58,7 @@ void SequentialContinuous<Real, Path>::anchor(const BodyView<Real>& bodies, doub
         revision_ = bodies.revision;
         events_.clear();
         horizon_ = -1;
+        surveyed_ = false;
         stamps_.assign(rows, 0);
         if constexpr (!falls) anchors.rests = {};
         while (anchors.rests.size() < rows) anchors.rests.push_back(0);
@@ -71,8 +78,8 @@ void SequentialContinuous<Real, Path>::anchor(const BodyView<Real>& bodies, doub
 }
 
 template <class Real, class Path>
-Path SequentialContinuous<Real, Path>::path(const BodyView<Real>& bodies, std::uint32_t body,
-                                            int axis) const {
+inline Path SequentialContinuous<Real, Path>::path(const BodyView<Real>& bodies, std::uint32_t body,
+                                                   int axis) const {
     Path result{};
     if ((body & staticBit) != 0) {
         const std::uint32_t k = body & ~staticBit;
@@ -91,7 +98,7 @@ Path SequentialContinuous<Real, Path>::path(const BodyView<Real>& bodies, std::u
 }
 
 template <class Real, class Path>
-typename SequentialContinuous<Real, Path>::Paths SequentialContinuous<Real, Path>::paths(
+inline typename SequentialContinuous<Real, Path>::Paths SequentialContinuous<Real, Path>::paths(
     const BodyView<Real>& bodies, std::uint32_t body) const {
     return {{path(bodies, body, 0), path(bodies, body, 1)}};
 }
@@ -113,33 +120,38 @@ void SequentialContinuous<Real, Path>::set(const BodyView<Real>& bodies, std::ui
     (axis == 0 ? to.x : to.y) = static_cast<Real>(anchor);
     (axis == 0 ? to.vx : to.vy) = static_cast<Real>(velocity);
     (axis == 0 ? to.timeX : to.timeY) = time;
-    if constexpr (!falls) (axis == 0 ? m.vx : m.vy)[row] = static_cast<Real>(velocity);
+    if constexpr (!falls) {
+        (axis == 0 ? m.vx : m.vy)[row] = static_cast<Real>(velocity);
+        fastest_ = std::max(fastest_, std::abs(velocity));
+    }
 }
 
 template <class Real, class Path>
-void SequentialContinuous<Real, Path>::place(const BodyView<Real>& bodies, double t) const {
+bool SequentialContinuous<Real, Path>::place(const BodyView<Real>& bodies, double t) const {
     const auto& m = bodies.moving;
-    if constexpr (falls) {
-        for (std::uint32_t i = 0; i < m.size(); ++i) {
+    const Anchor<Real>* const rows = m.anchors->rows.data();
+    constexpr Real largest = std::numeric_limits<Real>::max();
+    int lost = 0;
+    for (std::uint32_t i = 0; i < m.size(); ++i) {
+        if constexpr (falls) {
             const Paths at = paths(bodies, i);
             m.x[i] = static_cast<Real>(at.along[0].position(t));
             m.y[i] = static_cast<Real>(at.along[1].position(t));
             m.vx[i] = static_cast<Real>(at.along[0].speed(t));
             m.vy[i] = static_cast<Real>(at.along[1].speed(t));
-        }
-    } else {
-        const Anchor<Real>* const rows = m.anchors->rows.data();
-        for (std::size_t i = 0; i < m.size(); ++i) {
+        } else {
             const Anchor<Real>& a = rows[i];
             m.x[i] = static_cast<Real>(static_cast<double>(a.x) + a.vx * (t - a.timeX));
             m.y[i] = static_cast<Real>(static_cast<double>(a.y) + a.vy * (t - a.timeY));
         }
+        lost |= !(std::abs(m.x[i]) <= largest) | !(std::abs(m.y[i]) <= largest);
     }
+    return lost == 0;
 }
 
+/// Looks at the speeds and positions of all bodies, at a time when they are up to date.
 template <class Real, class Path>
-Real SequentialContinuous<Real, Path>::reach(const BodyView<Real>& bodies, double from,
-                                             double to) const {
+void SequentialContinuous<Real, Path>::survey(const BodyView<Real>& bodies) {
     const auto& m = bodies.moving;
     Real fastest = 0;
     Real farthest = 0;
@@ -154,15 +166,24 @@ Real SequentialContinuous<Real, Path>::reach(const BodyView<Real>& bodies, doubl
         const Real distance = x > y ? x : y;
         farthest = distance > farthest ? distance : farthest;
     }
+    fastest_ = static_cast<double>(fastest);
+    farthest_ = static_cast<double>(farthest);
+    surveyed_ = true;
+}
+
+template <class Real, class Path>
+Real SequentialContinuous<Real, Path>::reach(const BodyView<Real>& bodies, double from, double to) {
+    // Without gravity only events change speeds, and they keep count of the fastest.
+    if (falls || !surveyed_) survey(bodies);
     const double gained =
         falls ? std::max(std::abs(gravity_[0]), std::abs(gravity_[1])) * (to - from) : 0;
     // A light body leaves a heavy one at up to twice the heavy one's speed. The rest covers the
     // rounding of positions; without it a pair that only touches might be left out.
-    const double gain = m.mass.uniform() ? 1 : 2;
+    const double gain = bodies.moving.mass.uniform() ? 1 : 2;
     constexpr double eps = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-    return static_cast<Real>(gain * (static_cast<double>(fastest) + gained) * (to - from) *
-                                 (1 + 1e-6) +
-                             eps * static_cast<double>(farthest));
+    const double way = gain * (fastest_ + gained) * (to - from);
+    farthest_ += way;
+    return static_cast<Real>(way * (1 + 1e-6) + eps * farthest_);
 }
 
 template <class Real, class Path>
@@ -184,25 +205,20 @@ bool SequentialContinuous<Real, Path>::leavesPartition(const BodyView<Real>& bod
 /// it is asked only there, so that the answer does not depend on where steps begin.
 template <class Real, class Path>
 void SequentialContinuous<Real, Path>::find(const BodyView<Real>& bodies, std::uint32_t row,
-                                            const Paths& own, std::uint32_t b, double from,
-                                            double to, bool afterEvent) {
-    const Paths other = paths(bodies, b);
+                                            const Paths& own, std::uint32_t b, const Paths& other,
+                                            double from, double to, bool afterEvent) {
     const auto event = [&] {
         const bool isStatic = (b & staticBit) != 0;
         const bool inOrder = isStatic || row < b;
         const std::uint32_t first = inOrder ? row : b;
         const std::uint32_t second = inOrder ? b : row;
-        const auto& entity = bodies.moving.entity;
-        return PairEvent{
-            .time = from,
-            .priority = pairPriority(
-                entity[first], isStatic ? bodies.fixed.entity[b & ~staticBit] : entity[second]),
-            .a = first,
-            .b = second,
-            .stampA = stamps_[first],
-            .stampB = isStatic ? 0 : stamps_[second],
-            .axes = 0,
-            .release = false};
+        return PairEvent{.time = from,
+                         .a = first,
+                         .b = second,
+                         .stampA = stamps_[first],
+                         .stampB = isStatic ? 0 : stamps_[second],
+                         .axes = 0,
+                         .release = false};
     };
     double slackX = 0;
     double slackY = 0;
@@ -271,40 +287,55 @@ template <class Real, class Path>
 void SequentialContinuous<Real, Path>::findFor(const BodyView<Real>& bodies, std::uint32_t row,
                                                double now, double to) {
     const Paths own = paths(bodies, row);
-    for (const std::uint32_t b : neighbours_[row]) find(bodies, row, own, b, now, to, true);
+    const std::array<double, 2> at{own.along[0].position(now), own.along[1].position(now)};
+    const std::array<double, 2> velocity{own.along[0].speed(now), own.along[1].speed(now)};
+    const double h = to - now;
+    for (const std::uint32_t b : neighbours_[row]) {
+        const Paths other = paths(bodies, b);
+        const auto near = [&](int axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            const double d = other.along[k].position(now) - at[k];
+            const double u = other.along[k].speed(now) - velocity[k];
+            const double reach = reachOf(bodies, row, b, axis);
+            return comesNear(d, u, reach, h, slack(axis, std::abs(at[k]) + reach, u, h, to));
+        };
+        if (near(0) && near(1)) find(bodies, row, own, b, other, now, to, true);
+    }
+}
+
+/// Room for gravity and for the rounding of positions and times in comesNear().
+template <class Real, class Path>
+double SequentialContinuous<Real, Path>::slack(int axis, double position, double u, double h,
+                                               double to) const {
+    constexpr double eps = 16 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+    constexpr double epsTime = 16 * std::numeric_limits<double>::epsilon();
+    const double room = eps * position + std::abs(u) * (eps * h + epsTime * to);
+    if constexpr (!falls) return room;
+    return room + std::abs(gravity_[static_cast<std::size_t>(axis)]) * h * h;
 }
 
 /// All meetings of candidates between `from` and `to`.
 template <class Real, class Path>
 void SequentialContinuous<Real, Path>::findAll(const BodyView<Real>& bodies, double from,
                                                double to) {
+    const auto& m = bodies.moving;
+    const Real h = static_cast<Real>(to - from);
+    const auto near = [&](MovingPair p, int axis, std::span<const Real> position,
+                          std::span<const Real> velocity, const ColumnView<Real>& half) {
+        const Real u = velocity[p.b] - velocity[p.a];
+        const Real reach = half[p.a] + half[p.b];
+        const double room = slack(axis, std::abs(position[p.a]) + reach, u, h, to);
+        return comesNear(position[p.b] - position[p.a], u, reach, h, static_cast<Real>(room));
+    };
     for (const MovingPair p : candidates_.moving()) {
-        if (approaching(bodies, p, static_cast<Real>(to - from))) {
-            find(bodies, p.a, paths(bodies, p.a), p.b, from, to, false);
+        if (near(p, 0, m.x, m.vx, m.halfWidth) && near(p, 1, m.y, m.vy, m.halfHeight)) {
+            find(bodies, p.a, paths(bodies, p.a), p.b, paths(bodies, p.b), from, to, false);
         }
     }
     for (const StaticPair p : candidates_.fixed()) {
-        find(bodies, p.a, paths(bodies, p.a), p.fixed | staticBit, from, to, false);
+        const std::uint32_t b = p.fixed | staticBit;
+        find(bodies, p.a, paths(bodies, p.a), b, paths(bodies, b), from, to, false);
     }
-}
-
-/// Whether two bodies that go on for a time h, from where they stand, come to touch, with room for
-/// gravity and rounding: cheap, and true for few.
-template <class Real, class Path>
-bool SequentialContinuous<Real, Path>::approaching(const BodyView<Real>& bodies, MovingPair p,
-                                                   Real h) const {
-    constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
-    const auto along = [&](std::span<const Real> position, std::span<const Real> velocity,
-                           const ColumnView<Real>& half, double gravity) {
-        const Real u = (velocity[p.b] - velocity[p.a]) * (h / 2);
-        const Real d = position[p.b] - position[p.a] + u;
-        Real slack = eps * (std::abs(position[p.a]) + half[p.a] + std::abs(u));
-        if constexpr (falls) slack += static_cast<Real>(std::abs(gravity)) * h * h;
-        return std::abs(d) < half[p.a] + half[p.b] + std::abs(u) + slack;
-    };
-    const auto& m = bodies.moving;
-    return along(m.x, m.vx, m.halfWidth, gravity_[0]) &&
-           along(m.y, m.vy, m.halfHeight, gravity_[1]);
 }
 
 // ---- bodies at rest
@@ -726,13 +757,13 @@ double SequentialContinuous<Real, Path>::advance(const BodyView<Real>& bodies,
                                                  std::vector<ContactRecord>* records,
                                                  ResolveCounts& counts) {
     reach_ = reach;
-    events_.begin(to);
+    events_.begin(to, bodies.moving.entity, bodies.fixed.entity);
     const bool newPairs = candidates_.update(bodies, partition);
+    if (newPairs) surveyed_ = false;  // speeds may have fallen
     if (newPairs) neighbours_.link(bodies.moving.size(), candidates_.moving(), candidates_.fixed());
     if (newPairs || to > horizon_) {
         // Meetings do not depend on steps, so they are found for as long as the pairs may last.
-        const double life =
-            reach > 0 ? std::max(1.0, static_cast<double>(partition.margin / reach)) : 1.0;
+        const double life = reach > 0 ? static_cast<double>(partition.margin / reach) + 1 : 1.0;
         horizon_ = std::max(to, from + life * (to - from));
         findAll(bodies, from, horizon_);
         counts.pairsTested += candidates_.size();
@@ -743,6 +774,20 @@ double SequentialContinuous<Real, Path>::advance(const BodyView<Real>& bodies,
     };
     if constexpr (falls) releaseFromChanged(bodies, from);
     findForChanged(from);
+
+#if defined(__GNUC__)
+    // Brings what the events will read into the cache, all at once: one after the other they would
+    // wait for each.
+    for (const PairEvent& event : events_.due()) {
+        for (const std::uint32_t row : {event.a, event.b}) {
+            if ((row & staticBit) != 0) continue;
+            for (const std::uint32_t b : neighbours_[row]) {
+                if ((b & staticBit) == 0)
+                    __builtin_prefetch(bodies.moving.anchors->rows.data() + b);
+            }
+        }
+    }
+#endif
 
     const std::uint64_t most = counts.contacts + mostEventsPerBody * (bodies.moving.size() + 1);
     while (!events_.empty()) {

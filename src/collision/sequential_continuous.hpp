@@ -32,7 +32,7 @@ class ContinuousLaw {
 
     /// How far a body may move between two times, along either axis, unless an event makes it
     /// faster than every body is now.
-    virtual Real reach(const BodyView<Real>& bodies, double from, double to) const = 0;
+    virtual Real reach(const BodyView<Real>& bodies, double from, double to) = 0;
 
     /// Runs the events from `from` to `to`, the positions being those at `from`, and the partition
     /// one that covers `reach`. Returns `to`, or the time of an event that made a body too fast for
@@ -41,8 +41,9 @@ class ContinuousLaw {
                            Real reach, double from, double to, std::vector<ContactRecord>* records,
                            ResolveCounts& counts) = 0;
 
-    /// Writes the positions, and under gravity the velocities, of all bodies at time t.
-    virtual void place(const BodyView<Real>& bodies, double t) const = 0;
+    /// Writes the positions, and under gravity the velocities, of all bodies at time t. Returns
+    /// whether they are finite.
+    virtual bool place(const BodyView<Real>& bodies, double t) const = 0;
 
     /// Bytes of work space.
     virtual std::size_t bytes() const = 0;
@@ -77,11 +78,11 @@ class SequentialContinuous final : public ContinuousLaw<Real> {
         : gravity_{config.gravity.x(), config.gravity.y()}, restitution_(config.restitution) {}
 
     void anchor(const BodyView<Real>& bodies, double now) override;
-    Real reach(const BodyView<Real>& bodies, double from, double to) const override;
+    Real reach(const BodyView<Real>& bodies, double from, double to) override;
     double advance(const BodyView<Real>& bodies, const Partition<Real>& partition, Real reach,
                    double from, double to, std::vector<ContactRecord>* records,
                    ResolveCounts& counts) override;
-    void place(const BodyView<Real>& bodies, double t) const override;
+    bool place(const BodyView<Real>& bodies, double t) const override;
     std::size_t bytes() const override;
 
   private:
@@ -97,13 +98,14 @@ class SequentialContinuous final : public ContinuousLaw<Real> {
     double reachOf(const BodyView<Real>& bodies, std::uint32_t a, std::uint32_t b, int axis) const;
     void set(const BodyView<Real>& bodies, std::uint32_t row, int axis, double anchor,
              double velocity, double time);
+    void survey(const BodyView<Real>& bodies);
     bool leavesPartition(const BodyView<Real>& bodies, std::uint32_t row, double now,
                          double to) const;
 
     // ---- finding events
-    bool approaching(const BodyView<Real>& bodies, MovingPair pair, Real h) const;
+    double slack(int axis, double position, double u, double h, double to) const;
     void find(const BodyView<Real>& bodies, std::uint32_t row, const Paths& own, std::uint32_t b,
-              double from, double to, bool afterEvent);
+              const Paths& other, double from, double to, bool afterEvent);
     void findOverlap(const BodyView<Real>& bodies, PairEvent event, double until, double from,
                      double to, bool afterEvent);
     void findRest(const BodyView<Real>& bodies, PairEvent event, double from, double to,
@@ -155,6 +157,9 @@ class SequentialContinuous final : public ContinuousLaw<Real> {
     double restitution_;
 
     std::optional<std::uint64_t> revision_;  // of the bodies that all below is about
+    bool surveyed_ = false;                  // whether these two are bounds:
+    double fastest_ = 0;                     // px/s, along an axis
+    double farthest_ = 0;                    // px, from the origin along an axis
     Real reach_ = 0;                         // of the current partition
     double horizon_ = -1;                    // s; all meetings up to here have been found
 

@@ -142,7 +142,7 @@ ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::u
         now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
                                    counts);
         clock.finish(Phase::Resolve);
-        continuous_->place(bodies, now);
+        if (!continuous_->place(bodies, now)) requireFinite(bodies);
         clock.finish(Phase::Integrate);
     }
     return counts;
