@@ -456,7 +456,8 @@ bool SequentialContinuous<Real, Path>::release(const BodyView<Real>& bodies, std
     return true;
 }
 
-/// Lets fall what rested on bodies that have changed, and what rested on that.
+/// Lets fall bodies that have changed, and what rested on them, and what rested on that, unless
+/// something holds them.
 template <class Real, class Path>
 void SequentialContinuous<Real, Path>::releaseFromChanged(const BodyView<Real>& bodies,
                                                           double now) {
@@ -464,6 +465,7 @@ void SequentialContinuous<Real, Path>::releaseFromChanged(const BodyView<Real>& 
     if (resting.uniform() && resting.common == 0) return;
     for (std::size_t i = 0; i < changed_.size(); ++i) {
         for (int axis = 0; axis < 2; ++axis) {
+            if (release(bodies, changed_[i], axis, now)) changed(changed_[i]);
             if (rests(bodies, changed_[i], axis)) continue;
             for (const std::uint32_t b : neighbours_[changed_[i]]) {
                 if ((b & staticBit) == 0 && release(bodies, b, axis, now)) changed(b);
@@ -689,7 +691,7 @@ typename SequentialContinuous<Real, Path>::Outcome SequentialContinuous<Real, Pa
     } else {
         exchange(bodies, event, axis, sense);
     }
-    return Outcome::Collision;
+    return restitution_ == 1 || closing >= restSpeed ? Outcome::Collision : Outcome::Touch;
 }
 
 /// Carries an event out. Returns whether any trajectory changed.
