@@ -38,7 +38,8 @@ void run(const Options& options) {
     publish(measureSpeeds(plan), files("speeds"), {repeats});
     publish(measurePolicies(plan), files("policies"),
             {repeats + ", law impulse, double; pairs counted in a run of their own"});
-    publish(measureFeatures(plan), files("features"), {repeats + ", 20 steps of warm-up"});
+    publish(measureFeatures(plan), files("features"),
+            {std::to_string(plan.featureRepeats) + " repeats in turn, 20 steps of warm-up"});
 }
 
 }  // namespace

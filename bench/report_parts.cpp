@@ -72,6 +72,7 @@ Table measureErrors(const ReportPlan& plan) {
                  "collisions_per_body",
                  "exact_collisions",
                  "collisions",
+                 "matched_collisions",
                  "recall",
                  "event_precision",
                  "f1",
@@ -105,6 +106,7 @@ Table measureErrors(const ReportPlan& plan) {
                                number(2 * double(m.events.exact) / double(m.bodies)),
                                std::to_string(m.events.exact),
                                std::to_string(m.events.measured),
+                               std::to_string(m.events.matched),
                                number(m.events.recall()),
                                number(m.events.precision()),
                                number(m.events.f1()),
@@ -280,7 +282,8 @@ Table measureFeatures(const ReportPlan& plan) {
         }
     }
     std::map<Law, double> baseCost;
-    for (const Measurement& m : measure(sceneRuns, {.warmup = 20, .repeats = plan.repeats})) {
+    for (const Measurement& m :
+         measure(sceneRuns, {.warmup = 20, .repeats = plan.featureRepeats})) {
         const double ns = m.nsPerBody(m.times.mean);
         if (m.variant.label == base) baseCost[m.variant.law] = ns;
         table.add({m.variant.label, std::string(name(m.variant.law)), std::to_string(m.bodies),
@@ -293,7 +296,7 @@ Table measureFeatures(const ReportPlan& plan) {
     empty.entities = 1;
     empty.frames = 20 * plan.featureFrames;
     empty.variants = {sceneRuns.variants.front(), sceneRuns.variants[features.size()]};
-    for (const Measurement& m : measure(empty, {.warmup = 20, .repeats = plan.repeats})) {
+    for (const Measurement& m : measure(empty, {.warmup = 20, .repeats = plan.featureRepeats})) {
         table.add({"one square alone", std::string(name(m.variant.law)), std::to_string(m.bodies),
                    number(m.bytesPerBody), number(m.nsPerBody(m.times.mean)), std::string(noValue),
                    number(m.contactsPerFrame)});
