@@ -35,7 +35,8 @@ void run(const Options& options) {
     const std::string repeats = std::to_string(plan.repeats) + " repeats in turn";
     publish(measureErrors(plan), files("errors"),
             {"answers of the quadtree; all complete partitioners have the same, bit for bit"});
-    publish(measureSpeeds(plan), files("speeds"), {repeats});
+    publish(measureSpeeds(plan), files("speeds"),
+            {repeats + ", after a fifth as many steps of warm-up, at least two"});
     publish(measurePolicies(plan), files("policies"),
             {repeats + ", law impulse, double; pairs counted in a run of their own"});
     publish(measureFeatures(plan), files("features"),

@@ -154,9 +154,11 @@ Table measureSpeeds(const ReportPlan& plan) {
                     }
                 }
             }
+            // The first steps allocate, and build what later ones keep.
+            const auto warmup = std::size_t(std::max(2, stepsFor(scene.speedFrames / 5, rate)));
             std::map<std::pair<Law, Precision>, std::uint64_t> answers;
             for (const Measurement& m :
-                 measure(sceneRuns, {.warmup = 0, .repeats = plan.repeats})) {
+                 measure(sceneRuns, {.warmup = warmup, .repeats = plan.repeats})) {
                 const Variant& v = m.variant;
                 const auto [first, isNew] =
                     answers.emplace(std::pair(v.law, v.precision), m.stateHash);
