@@ -26,7 +26,6 @@ struct RawOptions {
     std::string rebuild = "skin";
     std::string law, precision;
     std::optional<unsigned> threads;
-    bool error = false;
     std::string screenshot;
 };
 
@@ -209,7 +208,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->capture_default_str()
         ->group("Run");
     app.add_flag("--profile", options.profile, "Measure the phases of a frame")->group("Run");
-    app.add_flag("--error", raw.error, "Measure the error against the reference")->group("Run");
+    app.add_flag("--error", options.error, "Measure the error against the event-driven reference")
+        ->group("Run");
 
     app.add_option("--json", options.json, "Write the run's summary ('-' is stdout)")
         ->check(fileName)
@@ -271,7 +271,9 @@ void interpret(Options& options, const RawOptions& raw) {
     if (!raw.law.empty()) options.law = laws.at(raw.law);
     if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
     if (raw.threads) throw UsageError("--threads: this version has no threaded resolver yet");
-    if (raw.error) throw UsageError("--error: this version has no reference to compare with yet");
+    if (options.error && options.frames == 0) {
+        throw UsageError("--error: there is nothing to compare after --frames 0");
+    }
     if (!raw.screenshot.empty()) throw UsageError("--screenshot: this version has no window yet");
     int onStdout = 0;
     for (const std::string* file :

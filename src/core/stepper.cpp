@@ -52,7 +52,7 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
       times_(config.dt) {
     setPartitioner(config, worldSize);
     if (config.countMissedPairs) {
-        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(worldSize);
+        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
     }
 }
 
@@ -78,10 +78,12 @@ void Stepper<Real>::integrate(const BodyView<Real>& bodies) const {
 }
 
 template <class Real>
-void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, StepReport& report) {
+void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    report.missedPairs = missedPairs_->count(bodies, partitioner_->partition());
-    report.auditSeconds =
+    const PairAudit audit = missedPairs_->count(bodies, partitioner_->partition(), reach);
+    report.overlappingPairs += audit.overlapping;
+    report.missedPairs += audit.missed;
+    report.auditSeconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -99,6 +101,7 @@ void Stepper<Real>::step(World& world, std::uint64_t number, std::vector<Contact
                          StepReport& report, bool profile) {
     const BodyView<Real> bodies = world.bodies<Real>();
     PhaseClock clock(report, profile);
+    report.audited = missedPairs_ && missedPairs_->picks(number);
     const ResolveCounts counts = continuous_
                                      ? stepContinuous(bodies, number, records, report, clock)
                                      : stepDiscrete(bodies, number, records, report, clock);
@@ -116,8 +119,8 @@ ResolveCounts Stepper<Real>::stepDiscrete(const BodyView<Real>& bodies, std::uin
     clock.finish(Phase::Integrate);
     updatePartition(bodies, Real(0), report);
     clock.finish(Phase::Partition);
-    if (missedPairs_) {
-        countMissedPairs(bodies, report);
+    if (report.audited) {
+        countMissedPairs(bodies, Real(0), report);
         clock.restart();
     }
     const ResolveCounts counts =
@@ -139,6 +142,10 @@ ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::u
         const Real reach = continuous_->reach(bodies, now, end);
         updatePartition(bodies, reach, report);
         clock.finish(Phase::Partition);
+        if (report.audited) {
+            countMissedPairs(bodies, reach, report);
+            clock.restart();
+        }
         now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
                                    counts);
         clock.finish(Phase::Resolve);

@@ -44,7 +44,7 @@ TEST(Usage, UnknownRebuildListsTheValidOnes) {
 TEST(Usage, UnknownSceneListsTheValidOnes) {
     expectUsageError({"--scene", "balancd"},
                      {"--scene", "balancd", "balanced", "balanced-scaled", "bullet", "cradle",
-                      "demo13k", "imbalanced", "mixed-sizes", "pi", "pile"});
+                      "demo13k", "imbalanced", "imbalanced-clear", "mixed-sizes", "pi", "pile"});
 }
 
 std::string nameOf(const testing::TestParamInfo<Arguments>& test) {
@@ -138,7 +138,6 @@ TEST(Usage, LawThatIsNotAvailableYet) {
 }
 
 TEST(Usage, OptionsThatAreNotAvailableYet) {
-    expectUsageError({"--error"}, {"--error", "yet"});
     expectUsageError({"--threads", "4"}, {"--threads", "yet"});
     expectUsageError({"--threads", "0"}, {"--threads"});
     expectUsageError({"--screenshot", "shot.png"}, {"--screenshot", "yet"});
