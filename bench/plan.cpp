@@ -58,7 +58,11 @@ std::vector<SceneRuns> expand(const Sweep& sweep) {
     for (const Law law : sweep.laws) {
         for (const Precision precision : sweep.precisions) {
             for (const std::string& spec : sweep.partitioners) {
-                variants.push_back({parsePartitioner(spec), law, precision});
+                variants.push_back({.partitioner = parsePartitioner(spec),
+                                    .law = law,
+                                    .precision = precision,
+                                    .label = {},
+                                    .change = {}});
             }
         }
     }

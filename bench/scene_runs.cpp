@@ -22,6 +22,8 @@ struct Repeat {
 
 Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup) {
     Scene scene = openScene(runs.scene, runs.entities);
+    if (runs.dt) scene.step.dt = *runs.dt;
+    if (variant.change) variant.change(scene);
     const StepSettings step = scene.step;
     Measurement result{.variant = variant, .scene = scene.name, .times = {}, .energyDrift = {}};
 
@@ -31,6 +33,7 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
                                                    .dt = step.dt,
                                                    .gravity = step.gravity,
                                                    .restitution = step.restitution});
+    if (variant.listener) simulation.onContact([](const Contact&) {});
     const World& world = simulation.world();
     const double energyAtStart = totalEnergy(world, step.gravity);
     simulation.run(warmup);

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <quadrille/bodies.hpp>
 #include <quadrille/partitioner.hpp>
+#include <quadrille/scene.hpp>
 #include <quadrille/simulation.hpp>
 
 #include "bench/statistics.hpp"
@@ -19,6 +21,9 @@ struct Variant {
     PartitionerConfig partitioner;
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
+    std::string label;                   ///< what `change` makes of the scene
+    std::function<void(Scene&)> change;  ///< applied to the scene before it runs
+    bool listener = false;               ///< somebody listens to contacts
 };
 
 /// A scene and the variants that are compared on it.
@@ -27,6 +32,7 @@ struct SceneRuns {
     std::optional<std::uint64_t> entities;  ///< replaces the count of the first spawn group
     std::vector<Variant> variants;
     std::size_t frames = 200;
+    std::optional<double> dt;  ///< s; the scene's
 };
 
 /// What all scenes of a run share.

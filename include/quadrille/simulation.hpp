@@ -41,6 +41,8 @@ struct SimulationConfig {
     double restitution = 1;         ///< in [0, 1]
     bool profile = false;           ///< measure the phases of each step
     bool countMissedPairs = false;  ///< compare the broad phase with a complete one in each step
+    /// With countMissedPairs: in the first step, and in about one of so many.
+    std::uint64_t missedPairsEvery = 1;
 };
 
 /// The phases of a step, in the order in which they run.
@@ -55,6 +57,11 @@ struct StepReport {
     bool rebuilt = false;           ///< the partition was built in this step
     std::uint64_t missedPairs = 0;  ///< only with SimulationConfig::countMissedPairs
     double auditSeconds = 0;        ///< what counting them took
+    /// Pairs that a complete broad phase shows; counted if `audited`, as missedPairs are.
+    std::uint64_t overlappingPairs = 0;
+    bool audited = false;
+    /// What listeners and observers took.
+    double observeSeconds = 0;
     std::array<double, phaseCount> phaseSeconds{};  ///< only with SimulationConfig::profile
 };
 

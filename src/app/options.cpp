@@ -26,7 +26,6 @@ struct RawOptions {
     std::string rebuild = "skin";
     std::string law, precision;
     std::optional<unsigned> threads;
-    bool error = false;
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -208,7 +207,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->capture_default_str()
         ->group("Run");
     app.add_flag("--profile", options.profile, "Measure the phases of a frame")->group("Run");
-    app.add_flag("--error", raw.error, "Measure the error against the reference")->group("Run");
+    app.add_flag("--error", options.error, "Measure the error against the event-driven reference")
+        ->group("Run");
 
     app.add_option("--json", options.json, "Write the run's summary ('-' is stdout)")
         ->check(fileName)
@@ -268,7 +268,9 @@ void interpret(Options& options, const RawOptions& raw) {
     if (!raw.law.empty()) options.law = laws.at(raw.law);
     if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
     if (raw.threads) throw UsageError("--threads: this version has no threaded resolver yet");
-    if (raw.error) throw UsageError("--error: this version has no reference to compare with yet");
+    if (options.error && options.frames == 0) {
+        throw UsageError("--error: there is nothing to compare after --frames 0");
+    }
     if (options.headless && !options.window.screenshot.empty()) {
         throw UsageError("--screenshot: there is nothing to see with --headless");
     }

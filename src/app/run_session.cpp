@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "app/error_summary.hpp"
+
 namespace quadrille::app {
 
 namespace {
@@ -38,6 +40,7 @@ RunSession::RunSession(Run run, const Options& options) : run_(std::move(run)), 
         events_.emplace(options.dumpEvents);
         run_.simulation.onContact([this](const Contact& contact) { events_->record(contact); });
     }
+    if (options.error) meter_.emplace(run_.simulation);
     start_ = Conserved::of(run_.simulation);
     begin_ = Clock::now();
 }
@@ -46,8 +49,10 @@ const StepReport& RunSession::step() {
     const auto before = Clock::now();
     const StepReport& report = run_.simulation.step();
     const std::chrono::duration<double> seconds = Clock::now() - before;
-    const double milliseconds = 1e3 * (seconds.count() - report.auditSeconds);
+    const double milliseconds =
+        1e3 * (seconds.count() - report.auditSeconds - report.observeSeconds);
     statistics_.add(report, milliseconds);
+    if (meter_) meter_->follow();
     if (frames_) frames_->record(run_.simulation, report, milliseconds);
     return report;
 }
@@ -66,7 +71,15 @@ void RunSession::finish() {
     auto summary = summaryJson(run_, statistics_, start_);
     // A window always measures the phases, for its panels.
     if (!options_.profile) summary["phases_ms"] = nullptr;
-    printSummary(wordsOf(options_), summary);
+    std::ostream& words = wordsOf(options_);
+    printSummary(words, summary);
+    if (meter_) {
+        summary["error"] = nullptr;  // ended before the first frame
+        if (statistics_.frames() > 0) {
+            summary["error"] = errorJson(meter_->metrics());
+            printError(words, summary["error"]);
+        }
+    }
     if (frames_) frames_->commit();
     if (events_) events_->commit();
     if (state_) writeState(*state_, run_.simulation.world());

@@ -6,6 +6,7 @@
 
 #include <quadrille/quadrille.hpp>
 
+#include "accuracy/error_meter.hpp"
 #include "app/options.hpp"
 #include "app/output_file.hpp"
 #include "app/recorders.hpp"
@@ -53,6 +54,7 @@ class RunSession {
     std::optional<OutputFile> json_, state_;
     std::optional<FrameRecorder> frames_;
     std::optional<EventRecorder> events_;
+    std::optional<accuracy::ErrorMeter> meter_;
     Conserved start_;
     RunStatistics statistics_;
     Clock::time_point begin_;

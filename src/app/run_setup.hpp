@@ -28,6 +28,6 @@ class NoDevice : public Error {
 Run setUp(const Options& options);
 
 /// The report's policy misses pairs; how many is part of its result, and is counted.
-bool missesPairs(const PartitionerConfig& partitioner);
+bool mayMissPairs(const PartitionerConfig& partitioner);
 
 }  // namespace quadrille::app

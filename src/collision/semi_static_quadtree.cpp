@@ -129,10 +129,13 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
     // The first tree shows how the bodies are spread, which decides about the second.
     if (this->partition_.generation == 0) return 0;
 
-    constexpr double buildPrice = 45;   // ns a body, for tree and walk through its cells
-    constexpr double collectPrice = 8;  // ns a candidate pair, to be found and listed
-    constexpr double testPrice = 1.2;   // ns a candidate pair and step
-    constexpr int longest = 40;         // steps
+    // A law that looks ahead searches each pair once, as far as the tree will last, and again
+    // around events only; the others test each pair in each step.
+    const bool looksAhead = reach > 0;
+    constexpr double buildPrice = 45;                  // ns a body, for tree and walk through it
+    const double collectPrice = looksAhead ? 40 : 8;   // ns a candidate pair, found and listed
+    const double testPrice = looksAhead ? 0.25 : 1.2;  // ns a candidate pair and step
+    const int longest = looksAhead ? 80 : 40;          // steps
 
     const auto& moving = bodies.moving;
     const auto count = static_cast<double>(moving.size());

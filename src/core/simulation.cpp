@@ -37,6 +37,7 @@ void validate(const SimulationConfig& config) {
     if (!(config.restitution >= 0 && config.restitution <= 1)) {
         throw Error("simulation: restitution must be from 0 to 1");
     }
+    if (config.missedPairsEvery == 0) throw Error("simulation: missedPairsEvery must be positive");
 }
 
 using AnyStepper = std::variant<Stepper<double>, Stepper<float>>;
@@ -144,9 +145,10 @@ void Simulation::Impl::notify() {
     }
     for (std::size_t i = 0; i < observers.size(); ++i) observers[i](world, report);
     world.flush();
+    report.observeSeconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (config.profile) {
-        report.phaseSeconds[static_cast<std::size_t>(Phase::Observe)] =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+        report.phaseSeconds[static_cast<std::size_t>(Phase::Observe)] = report.observeSeconds;
     }
 }
 

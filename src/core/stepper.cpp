@@ -51,7 +51,7 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
                   static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)},
       times_(config.dt) {
     if (config.countMissedPairs) {
-        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(worldSize);
+        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
     }
     // The resolver remembers pairs of the partition that it saw last, so both are made at once.
     partitioner_ = makePartitioner<Real>(config.partitioner, worldSize);
@@ -59,14 +59,7 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
         if (!partitioner_->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
-        if (config.resolver != ResolverKind::Sequential) {
-            throw NotAvailable("the law 'continuous' runs on the resolver 'sequential'");
-        }
-        if (config.gravity != Vec2(0, 0) || config.restitution != 1) {
-            throw NotAvailable(
-                "the law 'continuous' knows no gravity and no restitution below 1 yet");
-        }
-        continuous_ = std::make_unique<SequentialContinuous<Real>>();
+        continuous_ = makeContinuousLaw<Real>(config);
     } else {
         resolver_ = makeResolver<Real>(config);
     }
@@ -79,10 +72,12 @@ void Stepper<Real>::integrate(const BodyView<Real>& bodies) const {
 }
 
 template <class Real>
-void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, StepReport& report) {
+void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    report.missedPairs = missedPairs_->count(bodies, partitioner_->partition());
-    report.auditSeconds =
+    const PairAudit audit = missedPairs_->count(bodies, partitioner_->partition(), reach);
+    report.overlappingPairs += audit.overlapping;
+    report.missedPairs += audit.missed;
+    report.auditSeconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -100,6 +95,7 @@ void Stepper<Real>::step(World& world, std::uint64_t number, std::vector<Contact
                          StepReport& report, bool profile) {
     const BodyView<Real> bodies = world.bodies<Real>();
     PhaseClock clock(report, profile);
+    report.audited = missedPairs_ && missedPairs_->picks(number);
     const ResolveCounts counts = continuous_
                                      ? stepContinuous(bodies, number, records, report, clock)
                                      : stepDiscrete(bodies, number, records, report, clock);
@@ -117,8 +113,8 @@ ResolveCounts Stepper<Real>::stepDiscrete(const BodyView<Real>& bodies, std::uin
     clock.finish(Phase::Integrate);
     updatePartition(bodies, Real(0), report);
     clock.finish(Phase::Partition);
-    if (missedPairs_) {
-        countMissedPairs(bodies, report);
+    if (report.audited) {
+        countMissedPairs(bodies, Real(0), report);
         clock.restart();
     }
     const ResolveCounts counts =
@@ -140,10 +136,14 @@ ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::u
         const Real reach = continuous_->reach(bodies, now, end);
         updatePartition(bodies, reach, report);
         clock.finish(Phase::Partition);
+        if (report.audited) {
+            countMissedPairs(bodies, reach, report);
+            clock.restart();
+        }
         now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
                                    counts);
         clock.finish(Phase::Resolve);
-        continuous_->place(bodies, now);
+        if (!continuous_->place(bodies, now)) requireFinite(bodies);
         clock.finish(Phase::Integrate);
     }
     return counts;

@@ -41,13 +41,15 @@ class Stepper {
     void updatePartition(const BodyView<Real>& bodies, Real reach, StepReport& report);
     void integrate(const BodyView<Real>& bodies) const;
 
-    void countMissedPairs(const BodyView<Real>& bodies, StepReport& report);
+    /// Adds to the report what the partition does not show of the pairs that overlap, or would
+    /// after moving up to `reach`.
+    void countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report);
 
     StepParameters<Real> parameters_;
     std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
-    std::unique_ptr<Resolver<Real>> resolver_;                // of a discrete law, or
-    std::unique_ptr<SequentialContinuous<Real>> continuous_;  // of the continuous one
+    std::unique_ptr<Resolver<Real>> resolver_;         // of a discrete law, or
+    std::unique_ptr<ContinuousLaw<Real>> continuous_;  // the continuous one
     StepTimes times_;
 };
 

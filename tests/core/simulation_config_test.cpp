@@ -71,8 +71,6 @@ TEST(Config, ValuesThatDoNotFitFloatAreRefused) {
 }
 
 TEST(Config, WhatDoesNotExistIsNotAvailable) {
-    EXPECT_THROW(Simulation(World{}, {.law = Law::Continuous, .restitution = 0.5}), NotAvailable);
-    EXPECT_THROW(Simulation(World{}, {.law = Law::Continuous, .gravity = {0, -10}}), NotAvailable);
     for (const auto kind :
          {ResolverKind::Threads, ResolverKind::Cuda, ResolverKind::CudaResident}) {
         const std::string error =

@@ -56,6 +56,17 @@ TEST_F(WindowRun, KeepsToTheStepWhateverTheSpeed) {
     }
 }
 
+TEST_F(WindowRun, MeasuresTheErrorAsWithoutAWindow) {
+    const Arguments run = {"--scene",  "imbalanced", "--entities", "50",
+                           "--frames", "20",         "--error"};
+    start(run + Arguments{"--speed", "max", "--json", file("run.json")});
+    const ProcessResult result = program_->finish();
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const Json error = Json::parse(contentOf(path("run.json")))["error"];
+    EXPECT_GT(error["recall"], 0);
+    EXPECT_EQ(error, summaryOf(run)["error"]);
+}
+
 TEST_F(WindowRun, ShowsBodiesOfASnapshotThatHasNoColours) {
     const std::string scene = write("still.toml", stillScene);
     summaryOf({"--scene", scene, "--frames", "1", "--save", file("snapshot")});

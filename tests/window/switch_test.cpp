@@ -49,8 +49,10 @@ TEST_F(WindowSwitch, ALawThatIsChangedLiveGoesOnFromTheState) {
 }
 
 /// What cannot be run is refused, and the run goes on as it was.
-TEST_F(WindowSwitch, ALawThatTheSceneDoesNotAllowIsRefused) {
-    start({"--scene", "pile", "--entities", "50", "--paused", "--json", file("run.json")});
+TEST_F(WindowSwitch, ALawThatCannotRunIsRefused) {
+    // The law 'continuous' needs a partition that misses no pair.
+    start({"--scene", "imbalanced", "--entities", "50", "--rebuild", "every:10", "--paused",
+           "--json", file("run.json")});
     ASSERT_TRUE(titleHas("step 0, paused")) << program_->err();
     screen_->focus();
     screen_->press("l");

@@ -136,7 +136,7 @@ void Workbench::restart(Options options, const std::string& success) {
 }
 
 void Workbench::reconfigure(SimulationConfig config) {
-    config.countMissedPairs = missesPairs(config.partitioner);
+    config.countMissedPairs = options_->error || mayMissPairs(config.partitioner);
     const bool otherResolver = config.resolver != this->config().resolver;
     try {
         session_->simulation().reconfigure(config);
