@@ -19,6 +19,8 @@ struct Variant {
     PartitionerConfig partitioner;
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
+    ResolverKind resolver = ResolverKind::Sequential;
+    int threads = 0;  ///< 0: one for each core
 };
 
 /// A scene and the variants that are compared on it.

@@ -53,9 +53,8 @@ void ContactGraph<Real>::link(std::span<const ContactList<Real>> lists, std::siz
                          const std::size_t to = std::clamp(end, start, start + list.size());
                          for (std::size_t i = from; i < to; ++i) {
                              const PendingContact<Real>& c = list[i - start];
-                             const bool two = (c.b & PendingContact<Real>::staticBit) == 0;
+                             const bool two = !isStatic(c);
                              nodes_[i].contact = c;
-                             nodes_[i].outcome = Outcome::Duplicate;
                              nodes_[i].waiting.store(two ? 2 : 1, std::memory_order_relaxed);
                              nodes_[i].next[1] = none;
                              enter(c.a, static_cast<Slot>(2 * i));
@@ -74,28 +73,27 @@ void ContactGraph<Real>::enter(std::uint32_t body, Slot slot) {
 
 /// Puts a list in canonical order and takes out duplicates. Returns its first slot.
 template <class Real>
-auto ContactGraph<Real>::sorted(Slot first, std::vector<Slot>& list) -> Slot {
+auto ContactGraph<Real>::sorted(Slot first, std::vector<Entry>& list) -> Slot {
     if (nodes_[first / 2].next[first % 2] == none) return first;
     list.clear();
     for (Slot slot = first; slot != none; slot = nodes_[slot / 2].next[slot % 2]) {
-        list.push_back(slot);
+        list.push_back({nodes_[slot / 2].contact, slot});
     }
     // Duplicates in the order of their slots, so that both bodies keep the same one.
-    std::sort(list.begin(), list.end(), [&](Slot p, Slot q) {
-        const auto& cp = nodes_[p / 2].contact;
-        const auto& cq = nodes_[q / 2].contact;
-        return before(cp, cq) || (!before(cq, cp) && p < q);
+    std::sort(list.begin(), list.end(), [](const Entry& p, const Entry& q) {
+        return before(p.contact, q.contact) || (!before(q.contact, p.contact) && p.slot < q.slot);
     });
-    const auto same = [&](Slot p, Slot q) {
-        const auto& cp = nodes_[p / 2].contact;
-        const auto& cq = nodes_[q / 2].contact;
-        return cp.a == cq.a && cp.b == cq.b;
-    };
-    list.erase(std::unique(list.begin(), list.end(), same), list.end());
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        nodes_[list[i] / 2].next[list[i] % 2] = i + 1 < list.size() ? list[i + 1] : none;
+    list.erase(
+        std::unique(list.begin(), list.end(),
+                    [](const Entry& p, const Entry& q) { return samePair(p.contact, q.contact); }),
+        list.end());
+    Slot behind = none;
+    for (std::size_t i = list.size(); i-- > 0;) {
+        const Slot slot = list[i].slot;
+        nodes_[slot / 2].next[slot % 2] = behind;
+        behind = slot;
     }
-    return list.front();
+    return behind;
 }
 
 /// The contact has become the first pending one of one of its bodies. Whoever says so last runs it,
@@ -113,10 +111,8 @@ void ContactGraph<Real>::run(const ImpulseBodies<Real>& bodies, const StepParame
     while (!worker.ready.empty()) {
         Node& node = nodes_[worker.ready.back()];
         worker.ready.pop_back();
-        const bool collided = resolveContact(bodies, node.contact, step);
-        node.outcome = collided ? Outcome::Collided : Outcome::Touched;
         ++worker.contacts;
-        worker.collisions += collided;
+        worker.collisions += resolveContact(bodies, node.contact, step);
         for (const Slot next : node.next) {
             if (next != none) release(next, worker);
         }
@@ -143,7 +139,7 @@ ResolveCounts ContactGraph<Real>::resolve(const ImpulseBodies<Real>& bodies,
                          const PendingContact<Real>& c = nodes_[i].contact;
                          const auto slot = static_cast<Slot>(2 * i);
                          runListFrom(c.a, slot, workers_[w]);
-                         if ((c.b & PendingContact<Real>::staticBit) != 0) continue;
+                         if (isStatic(c)) continue;
                          runListFrom(c.b, slot + 1, workers_[w]);
                      }
                  });

@@ -40,21 +40,9 @@ class ContactGraph {
     /// Carries them out. Returns how many there were, and how many exchanged an impulse.
     ResolveCounts resolve(const ImpulseBodies<Real>& bodies, const StepParameters<Real>& step);
 
-    /// Calls `function(contact, collided)` for each contact that was carried out, in the order in
-    /// which they were taken in.
-    template <class Function>
-    void forEach(Function&& function) const {
-        for (std::size_t i = 0; i < count_; ++i) {
-            if (nodes_[i].outcome == Outcome::Duplicate) continue;
-            function(nodes_[i].contact, nodes_[i].outcome == Outcome::Collided);
-        }
-    }
-
     std::size_t bytes() const;
 
   private:
-    enum class Outcome : std::uint8_t { Duplicate, Touched, Collided };
-
     /// A place in a list: contact times two, plus which of its bodies the list is of.
     using Slot = std::uint32_t;
     static constexpr Slot none = 0xffff'ffffu;
@@ -63,17 +51,20 @@ class ContactGraph {
         PendingContact<Real> contact;
         Slot next[2];                        ///< behind it in the lists of its two bodies
         std::atomic<std::uint32_t> waiting;  ///< for so many of its bodies
-        Outcome outcome;
+    };
+    struct Entry {
+        PendingContact<Real> contact;
+        Slot slot;
     };
     struct alignas(64) Worker {
-        std::vector<Slot> list;            ///< being sorted
+        std::vector<Entry> list;           ///< being sorted
         std::vector<std::uint32_t> ready;  ///< contacts to be run
         std::uint64_t contacts, collisions;
     };
 
     void reserve(std::size_t contacts, std::size_t movingCount);
     void enter(std::uint32_t body, Slot slot);
-    Slot sorted(Slot first, std::vector<Slot>& list);
+    Slot sorted(Slot first, std::vector<Entry>& list);
     void release(Slot slot, Worker& worker);
     void run(const ImpulseBodies<Real>& bodies, const StepParameters<Real>& step, Worker& worker);
 

@@ -54,8 +54,7 @@ bool StaticGridPartitioner<Real>::update(const BodyView<Real>& bodies, Real, Rea
     auto& partition = this->partition_;
     partition.margin = reach;
     grid_.ranges(bodies, reach, partition.ranges, team_);
-    // What is shared out is bodies and cells; the more of both, the better it pays.
-    if (team_.workersFor(bodies.size(), 4 * worthwhile::built) == 1) {
+    if (team_.workersFor(bodies.size(), worthwhile::built) == 1) {
         fill();
     } else {
         fillInParallel();

@@ -25,6 +25,7 @@ class ThreadTeam {
     static unsigned cores();
 
     unsigned size() const { return size_; }
+    bool eager() const { return eager_; }
 
     /// The workers for a loop of `count` items that pays off from `least` items on: all or one.
     unsigned workersFor(std::size_t count, std::size_t least) const {
@@ -125,7 +126,8 @@ class ThreadTeam {
 namespace worthwhile {
 inline constexpr std::size_t streamed = 20'000;  ///< bodies that are read and written in passing
 inline constexpr std::size_t tested = 16'000;    ///< pairs whose boxes are compared
-inline constexpr std::size_t built = 2'000;      ///< bodies that cells are made or walked for
+inline constexpr std::size_t built = 8'000;      ///< bodies that cells are made for
+inline constexpr std::size_t walked = 1'500;     ///< bodies whose cells are walked through
 inline constexpr std::size_t resolved = 300;     ///< contacts
 }  // namespace worthwhile
 

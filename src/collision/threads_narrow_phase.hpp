@@ -59,12 +59,13 @@ class ThreadsNarrowPhase {
         CellWalk<Real> walk;
         CandidatePairs<Real> candidates;
         std::uint64_t tested = 0;
+        std::size_t hits = 0;
     };
 
     template <class Sizes, class OnMoving, class OnStatic>
     std::uint64_t walkCells(const BodyView<Real>& bodies, const Partition<Real>& partition,
                             const Sizes& sizes, OnMoving& onMoving, OnStatic& onStatic) {
-        const unsigned workers = team_.workersFor(bodies.size(), worthwhile::built);
+        const unsigned workers = team_.workersFor(bodies.size(), worthwhile::walked);
         team_.run(workers, [&](unsigned worker) {
             const auto [first, last] = shareOfCells(partition.cells, worker, workers);
             const auto moving = [&](MovingPair p) { onMoving(worker, p); };
@@ -81,7 +82,7 @@ class ThreadsNarrowPhase {
         if (collected_ == partition.generation) return;
         const Real inflation = CandidatePairs<Real>::inflationOf(bodies, partition, team_);
         for (Worker& w : workers_) w.candidates.clear();
-        const unsigned workers = team_.workersFor(bodies.size(), worthwhile::built);
+        const unsigned workers = team_.workersFor(bodies.size(), worthwhile::walked);
         team_.run(workers, [&](unsigned worker) {
             const auto [first, last] = shareOfCells(partition.cells, worker, workers);
             workers_[worker].candidates.add(bodies, partition, inflation, first, last);
@@ -98,13 +99,18 @@ class ThreadsNarrowPhase {
             moving += w.candidates.moving().size();
             fixed += w.candidates.fixed().size();
         }
-        const unsigned workers = team_.workersFor(moving + fixed, worthwhile::tested);
+        const unsigned workers =
+            team_.workersFor(moving + fixed + hitPrice * lastHits_, worthwhile::tested);
         team_.run(workers, [&](unsigned worker) {
+            std::size_t hits = 0;
             forShare(
                 moving * worker / workers, moving * (worker + 1) / workers,
                 [](const Worker& w) { return w.candidates.moving(); },
                 [&](std::span<const MovingPair> pairs) {
-                    testMoving(bodies, sizes, pairs, [&](MovingPair p) { onMoving(worker, p); });
+                    testMoving(bodies, sizes, pairs, [&](MovingPair p) {
+                        ++hits;
+                        onMoving(worker, p);
+                    });
                 });
             forShare(
                 fixed * worker / workers, fixed * (worker + 1) / workers,
@@ -112,7 +118,10 @@ class ThreadsNarrowPhase {
                 [&](std::span<const StaticPair> pairs) {
                     testStatic(bodies, sizes, pairs, [&](StaticPair p) { onStatic(worker, p); });
                 });
+            workers_[worker].hits = hits;
         });
+        lastHits_ = 0;
+        for (unsigned w = 0; w < workers; ++w) lastHits_ += workers_[w].hits;
         return moving + fixed;
     }
 
@@ -130,8 +139,12 @@ class ThreadsNarrowPhase {
         }
     }
 
+    /// What a pair costs that overlaps, in pairs that do not.
+    static constexpr std::size_t hitPrice = 30;
+
     const ThreadTeam& team_;
     std::vector<Worker> workers_;
+    std::size_t lastHits_ = 0;     // pairs that overlapped in the last step
     std::uint64_t collected_ = 0;  // generation of the partition that the candidates come from
 };
 

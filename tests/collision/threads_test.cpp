@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Precisions, Threads, testing::Values(Precision::Double,
 
 TEST_P(Threads, RandomScenes) {
     for (const SceneKind kind : sceneKinds) {
-        for (std::uint64_t seed = 100; seed < 104; ++seed) {
+        for (std::uint64_t seed = 100; seed < 102; ++seed) {
             for (std::size_t i = 0; i < partitioners.size(); ++i) {
                 SCOPED_TRACE(std::string(name(kind)) + ", seed " + std::to_string(seed) +
                              ", partitioner " + std::to_string(i));
@@ -126,7 +126,7 @@ TEST_P(Threads, RandomScenes) {
                                         .precision = GetParam(),
                                         .gravity = {0, seed % 2 == 0 ? 0.0 : -50.0},
                                         .restitution = seed % 3 == 0 ? 1 : 0.6},
-                                       10, {threadCounts[(seed + i) % threadCounts.size()]});
+                                       6, {threadCounts[(seed + i) % threadCounts.size()]});
                 if (HasFailure()) return;
             }
         }
@@ -135,7 +135,7 @@ TEST_P(Threads, RandomScenes) {
 
 TEST_P(Threads, TreesThatAreSplitOnAllThreads) {
     // Enough references for several blocks in the upper nodes, and nodes that all bodies cover.
-    for (std::uint64_t seed = 7; seed < 10; ++seed) {
+    for (std::uint64_t seed = 8; seed < 10; ++seed) {
         const auto world = [&] {
             World w({.size = {400, 300}, .seed = seed});
             Random& random = w.random();
@@ -152,8 +152,8 @@ TEST_P(Threads, TreesThatAreSplitOnAllThreads) {
         for (const PartitionerConfig& partitioner : std::vector<PartitionerConfig>{
                  Quadtree{10, 20}, Quadtree{3, 50}, StaticGrid{}, SemiStaticQuadtree{}}) {
             SCOPED_TRACE("seed " + std::to_string(seed) + ", " + name(partitioner));
-            expectTheSameOnThreads(world, {.partitioner = partitioner, .precision = GetParam()}, 3,
-                                   {2, 7});
+            expectTheSameOnThreads(world, {.partitioner = partitioner, .precision = GetParam()}, 2,
+                                   {3});
             if (HasFailure()) return;
         }
     }
