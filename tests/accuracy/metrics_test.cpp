@@ -131,7 +131,7 @@ TEST(SpeedDrift, IsOfTheSortedComponents) {
         speedDrift(before,
                    std::vector<BodyState>{{{0, 0}, {8, 1}}, {{0, 0}, {6, 2}}, {{0, 0}, {0, 3}}}),
         0);
-    EXPECT_EQ(speedDrift({0, 0}, {0, 0}), 0);
+    EXPECT_EQ(speedDrift({}, {}), 0);
 }
 
 TEST(ErrorMetrics, BroadPhaseRecallIsUnknownWhereNobodyLooked) {
