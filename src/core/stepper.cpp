@@ -163,7 +163,7 @@ ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::u
         now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
                                    counts);
         clock.finish(Phase::Resolve);
-        if (!continuous_->place(bodies, now)) requireFinite(bodies);
+        if (!continuous_->place(bodies, now)) requireFinite(bodies, *team_);
         clock.finish(Phase::Integrate);
     }
     return counts;
