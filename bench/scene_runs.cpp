@@ -30,6 +30,8 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
     Simulation simulation(std::move(scene.world), {.partitioner = variant.partitioner,
                                                    .law = variant.law,
                                                    .precision = variant.precision,
+                                                   .resolver = variant.resolver,
+                                                   .threads = variant.threads,
                                                    .dt = step.dt,
                                                    .gravity = step.gravity,
                                                    .restitution = step.restitution});

@@ -21,6 +21,8 @@ struct Variant {
     PartitionerConfig partitioner;
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
+    ResolverKind resolver = ResolverKind::Sequential;
+    int threads = 0;                     ///< 0: one for each core
     std::string label;                   ///< what `change` makes of the scene
     std::function<void(Scene&)> change;  ///< applied to the scene before it runs
     bool listener = false;               ///< somebody listens to contacts

@@ -36,6 +36,7 @@ struct SimulationConfig {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
+    int threads = 0;                ///< of ResolverKind::Threads; 0: one for each core
     double dt = 1.0 / 60;           ///< s
     Vec2 gravity{0, 0};             ///< px/s^2
     double restitution = 1;         ///< in [0, 1]
@@ -119,6 +120,11 @@ class Simulation {
 
     /// The cells of the last step; empty before the first.
     const Cells& cells() const;
+
+    /// Threads that a step may use.
+    int threads() const;
+    /// Cores that this process may use: what SimulationConfig::threads = 0 stands for.
+    static int cores();
 
     ModelFeatures features() const;
 

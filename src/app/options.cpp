@@ -25,7 +25,6 @@ struct RawOptions {
     int maxPerCell = 20;
     std::string rebuild = "skin";
     std::string law, precision;
-    std::optional<unsigned> threads;
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -177,7 +176,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
-    app.add_option("--threads", raw.threads, "Threads of the resolver 'threads' (all cores)")
+    app.add_option("--threads", options.threads, "Threads of the resolver 'threads' (all cores)")
+        ->check(CLI::Range(1, 1024))
         ->type_name("N")
         ->group("Collisions");
     app.add_flag("!--no-fallback", options.fallback,
@@ -267,7 +267,6 @@ void interpret(Options& options, const RawOptions& raw) {
     options.partitioner = makePartitionerConfig(raw);
     if (!raw.law.empty()) options.law = laws.at(raw.law);
     if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
-    if (raw.threads) throw UsageError("--threads: this version has no threaded resolver yet");
     if (options.error && options.frames == 0) {
         throw UsageError("--error: there is nothing to compare after --frames 0");
     }

@@ -26,6 +26,7 @@ struct Options {
 
     PartitionerConfig partitioner;
     std::string resolver = "auto";
+    std::optional<int> threads;
     bool fallback = true;
     std::optional<Law> law;
     std::optional<Precision> precision;

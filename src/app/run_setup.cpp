@@ -38,11 +38,25 @@ Start loadStart(const Options& options) {
             .step = scene.step};
 }
 
-ResolverKind chooseResolver(const Options& options) {
-    if (options.resolver == "auto" || options.resolver == "sequential") {
-        return ResolverKind::Sequential;
+/// From how many moving bodies on `auto` takes the threads: docs/performance.md has the figures.
+constexpr std::size_t threadsPayFrom = 10'000;
+
+ResolverKind chooseAutomatically(const SimulationConfig& config, std::size_t movingCount) {
+    const bool several = config.threads > 0 ? config.threads > 1 : Simulation::cores() > 1;
+    const bool pays = several && config.law == Law::Impulse && movingCount >= threadsPayFrom;
+    return pays ? ResolverKind::Threads : ResolverKind::Sequential;
+}
+
+ResolverKind chooseResolver(const Options& options, const SimulationConfig& config,
+                            std::size_t movingCount) {
+    if (options.resolver == "auto") return chooseAutomatically(config, movingCount);
+    if (options.resolver == "sequential") return ResolverKind::Sequential;
+    std::string reason = "the resolver '" + options.resolver + "' is not available yet";
+    if (options.resolver == "threads") {
+        if (config.law == Law::Impulse) return ResolverKind::Threads;
+        reason = "the law '" + std::string(name(config.law)) +
+                 "' does not run on the resolver 'threads'";
     }
-    const std::string reason = "the resolver '" + options.resolver + "' is not available yet";
     if (!options.fallback) {
         if (options.resolver == "threads") throw NotAvailable(reason);
         throw NoDevice(reason);
@@ -69,7 +83,8 @@ Run setUp(const Options& options) {
     config.partitioner = options.partitioner;
     config.law = options.law.value_or(start.law);
     config.precision = options.precision.value_or(start.world.precision());
-    config.resolver = chooseResolver(options);
+    config.threads = options.threads.value_or(0);
+    config.resolver = chooseResolver(options, config, start.world.movingCount());
     config.dt = options.dt.value_or(start.step.dt);
     config.gravity = start.step.gravity;
     config.restitution = options.restitution.value_or(start.step.restitution);

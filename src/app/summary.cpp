@@ -88,7 +88,7 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["partitioner_parameters"] = partitionerParameters(config.partitioner);
     json["resolver"] = name(config.resolver);
     json["requested_resolver"] = run.requestedResolver;
-    json["threads"] = 1;
+    json["threads"] = run.simulation.threads();
     json["device"] = nullptr;
     json["ms_per_frame"] = {{"mean", times.mean}, {"median", times.median}, {"p99", times.p99}};
     if (config.profile) {
@@ -166,7 +166,10 @@ void printSummary(std::ostream& out, const Json& json) {
                    text(json["law"]) + ", " + text(json["precision"]));
     std::string resolver = text(json["resolver"]);
     const std::string requested = text(json["requested_resolver"]);
-    if (requested != resolver) resolver += " (asked for: " + requested + ")";
+    if (resolver == name(ResolverKind::Threads)) {
+        resolver += " (" + json["threads"].dump() + " threads)";
+    }
+    if (requested != text(json["resolver"])) resolver += " (asked for: " + requested + ")";
     row("partitioner", text(json["partitioner"]) + ", resolver " + resolver);
     const Json& ms = json["ms_per_frame"];
     row("ms per frame", number(ms["mean"], "%.4f mean, ") + number(ms["median"], "%.4f median, ") +

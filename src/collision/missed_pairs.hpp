@@ -104,7 +104,7 @@ class MissedPairCounter {
         shown_.clear();
         withSizes(bodies, [&](const auto& sizes) {
             walk_.walk(
-                bodies, partition, sizes, slack,
+                bodies, partition, sizes, slack, 0, partition.cells.size(),
                 [&](std::uint32_t a, const std::uint32_t* others, auto hits) {
                     forEachBit(hits, [&](std::size_t l) { shown_.emplace_back(a, others[l]); });
                 },

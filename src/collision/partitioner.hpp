@@ -9,6 +9,7 @@
 #include <quadrille/vec2.hpp>
 
 #include "collision/fine_grid.hpp"
+#include "collision/thread_team.hpp"
 
 namespace quadrille {
 
@@ -65,9 +66,11 @@ class Partitioner {
     Partition<Real> partition_;
 };
 
+/// `team` builds the cells and must outlive the partitioner; they are the same whatever its size.
 /// Throws Error for impossible parameters.
 template <class Real>
 std::unique_ptr<Partitioner<Real>> makePartitioner(const PartitionerConfig& config,
-                                                   const Vec2& worldSize);
+                                                   const Vec2& worldSize,
+                                                   const ThreadTeam& team = ThreadTeam::serial());
 
 }  // namespace quadrille

@@ -8,17 +8,10 @@
 #include <quadrille/simulation.hpp>
 
 #include "collision/partitioner.hpp"
+#include "collision/step_parameters.hpp"
+#include "collision/thread_team.hpp"
 
 namespace quadrille {
-
-/// The numbers of a step that a contact law uses.
-template <class Real>
-struct StepParameters {
-    double start;  ///< s since the start of the run
-    Real dt;
-    Real gravityX, gravityY;
-    Real restitution;
-};
 
 /// A contact as the resolvers hand it to observers.
 struct ContactRecord {
@@ -52,8 +45,10 @@ class Resolver {
     virtual std::size_t bytes() const = 0;
 };
 
-/// The resolver of a discrete law. Throws NotAvailable if this version has none of that kind.
+/// The resolver of a discrete law; `team` must outlive it. Throws NotAvailable if this version has
+/// none of that kind.
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config);
+std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config,
+                                             const ThreadTeam& team);
 
 }  // namespace quadrille

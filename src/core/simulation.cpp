@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -20,11 +21,18 @@ std::string_view name(Precision precision) {
 
 namespace {
 
+/// More than any machine has cores; fewer than what makes an operating system give up.
+constexpr int mostThreads = 1024;
+
 void validate(const SimulationConfig& config) {
     if (!std::isfinite(config.dt) || !(config.dt > 0)) {
         throw Error("simulation: dt must be finite and positive");
     }
     if (!config.gravity.allFinite()) throw Error("simulation: gravity must be finite");
+    if (config.threads < 0 || config.threads > mostThreads) {
+        throw Error("simulation: the number of threads must be from 1 to " +
+                    std::to_string(mostThreads) + ", or 0 for one on each core");
+    }
     if (config.precision == Precision::Float) {
         const auto dt = static_cast<float>(config.dt);
         if (!std::isfinite(dt) || !(dt > 0)) {
@@ -196,6 +204,12 @@ void Simulation::reconfigure(const SimulationConfig& config) {
 const Cells& Simulation::cells() const {
     return std::visit([](const auto& s) -> const Cells& { return s.cells(); }, impl_->stepper);
 }
+
+int Simulation::threads() const {
+    return static_cast<int>(std::visit([](const auto& s) { return s.threads(); }, impl_->stepper));
+}
+
+int Simulation::cores() { return std::min(mostThreads, static_cast<int>(ThreadTeam::cores())); }
 
 ModelFeatures Simulation::features() const {
     const Impl& s = *impl_;

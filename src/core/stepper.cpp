@@ -11,6 +11,11 @@ namespace quadrille {
 
 namespace {
 
+unsigned threadsOf(const SimulationConfig& config) {
+    if (config.resolver != ResolverKind::Threads) return 1;
+    return static_cast<unsigned>(config.threads > 0 ? config.threads : Simulation::cores());
+}
+
 template <class Real>
 void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, Real dt) {
     Real* const p = position.data();
@@ -25,16 +30,20 @@ void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, R
 
 /// Stops a run before a NaN spreads.
 template <class Real>
-void requireFinite(const BodyView<Real>& bodies) {
+void requireFinite(const BodyView<Real>& bodies, const ThreadTeam& team) {
     const auto& m = bodies.moving;
     const Real* const x = m.x.data();
     const Real* const y = m.y.data();
     constexpr Real largest = std::numeric_limits<Real>::max();
-    int bad = 0;
-    for (std::size_t i = 0; i < m.size(); ++i) {
-        bad |= !(std::abs(x[i]) <= largest) | !(std::abs(y[i]) <= largest);
-    }
-    if (bad == 0) return;
+    const bool anyBad =
+        team.any(m.size(), worthwhile::streamed, [&](std::size_t begin, std::size_t end) {
+            int bad = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                bad |= !(std::abs(x[i]) <= largest) | !(std::abs(y[i]) <= largest);
+            }
+            return bad != 0;
+        });
+    if (!anyBad) return;
     for (std::size_t i = 0; i < m.size(); ++i) {
         if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
             throw Error("entity " + std::to_string(m.entity[i]) +
@@ -46,29 +55,34 @@ void requireFinite(const BodyView<Real>& bodies) {
 }  // namespace
 
 template <class Real>
-Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
+Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize, bool eager)
     : parameters_{0, static_cast<Real>(config.dt), static_cast<Real>(config.gravity.x()),
                   static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)},
+      team_(std::make_unique<ThreadTeam>(threadsOf(config), eager)),
       times_(config.dt) {
     if (config.countMissedPairs) {
         missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
     }
     // The resolver remembers pairs of the partition that it saw last, so both are made at once.
-    partitioner_ = makePartitioner<Real>(config.partitioner, worldSize);
+    partitioner_ = makePartitioner<Real>(config.partitioner, worldSize, *team_);
     if (config.law == Law::Continuous) {
         if (!partitioner_->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
         continuous_ = makeContinuousLaw<Real>(config);
     } else {
-        resolver_ = makeResolver<Real>(config);
+        resolver_ = makeResolver<Real>(config, *team_);
     }
 }
 
 template <class Real>
 void Stepper<Real>::integrate(const BodyView<Real>& bodies) const {
-    advance(bodies.moving.x, bodies.moving.vx, parameters_.gravityX, parameters_.dt);
-    advance(bodies.moving.y, bodies.moving.vy, parameters_.gravityY, parameters_.dt);
+    const auto& m = bodies.moving;
+    team_->shares(m.size(), worthwhile::streamed, [&](std::size_t b, std::size_t e, unsigned) {
+        const std::size_t n = e - b;
+        advance(m.x.subspan(b, n), m.vx.subspan(b, n), parameters_.gravityX, parameters_.dt);
+        advance(m.y.subspan(b, n), m.vy.subspan(b, n), parameters_.gravityY, parameters_.dt);
+    });
 }
 
 template <class Real>
@@ -87,7 +101,7 @@ void Stepper<Real>::updatePartition(const BodyView<Real>& bodies, Real reach, St
     report.rebuilt = report.rebuilt || rebuilt;
     // A skin notices a NaN as a body that left its box, so checking at builds sees every one; a
     // tree that is kept for so many steps, whatever happens, notices nothing.
-    if (rebuilt || !partitioner_->partition().complete) requireFinite(bodies);
+    if (rebuilt || !partitioner_->partition().complete) requireFinite(bodies, *team_);
 }
 
 template <class Real>
@@ -143,7 +157,7 @@ ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::u
         now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
                                    counts);
         clock.finish(Phase::Resolve);
-        if (!continuous_->place(bodies, now)) requireFinite(bodies);
+        if (!continuous_->place(bodies, now)) requireFinite(bodies, *team_);
         clock.finish(Phase::Integrate);
     }
     return counts;

@@ -10,6 +10,7 @@
 #include "collision/partitioner.hpp"
 #include "collision/resolver.hpp"
 #include "collision/sequential_continuous.hpp"
+#include "collision/thread_team.hpp"
 #include "core/phase_clock.hpp"
 #include "core/step_times.hpp"
 
@@ -19,12 +20,16 @@ namespace quadrille {
 template <class Real>
 class Stepper {
   public:
-    Stepper(const SimulationConfig& config, const Vec2& worldSize);
+    /// `eager` shares out even the shortest loops, for tests of that.
+    Stepper(const SimulationConfig& config, const Vec2& worldSize, bool eager = false);
 
     /// One step, the `number`-th of the run, from 1. Contacts go to `records` unless it is null.
     /// Fills the report's counts and, with `profile`, its times.
     void step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,
               StepReport& report, bool profile);
+
+    /// That share out the loops of a step.
+    unsigned threads() const { return team_->size(); }
 
     const Cells& cells() const { return partitioner_->partition().cells; }
     std::size_t bytes() const {
@@ -46,6 +51,7 @@ class Stepper {
     void countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report);
 
     StepParameters<Real> parameters_;
+    std::unique_ptr<ThreadTeam> team_;  // used by what follows, at an address that stays
     std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
     std::unique_ptr<Resolver<Real>> resolver_;         // of a discrete law, or

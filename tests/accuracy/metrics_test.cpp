@@ -107,8 +107,8 @@ TEST(WrongBodies, AreThoseWithAnyComponentThatDiffers) {
 }
 
 TEST(PositionErrors, AreDistancesInUnitsOfTheLength) {
-    const std::vector<BodyState> exact{{{0, 0}, {}}, {{1, 1}, {}}, {{5, 5}, {}}};
-    const std::vector<BodyState> measured{{{3, 4}, {}}, {{1, 1}, {}}, {{5, 4}, {}}};
+    const std::vector<BodyState> exact{{{0, 0}, {0, 0}}, {{1, 1}, {0, 0}}, {{5, 5}, {0, 0}}};
+    const std::vector<BodyState> measured{{{3, 4}, {0, 0}}, {{1, 1}, {0, 0}}, {{5, 4}, {0, 0}}};
     const Quantiles q = positionErrors(exact, measured, 2);
     EXPECT_EQ(q.median, 0.5);
     EXPECT_EQ(q.p99, 2.5);
@@ -116,15 +116,21 @@ TEST(PositionErrors, AreDistancesInUnitsOfTheLength) {
 }
 
 TEST(SpeedDrift, IsOfTheSortedComponents) {
-    const std::vector<BodyState> before{{{}, {1, -8}}, {{}, {-2, 6}}, {{}, {3, 0}}};
+    const std::vector<BodyState> before{{{0, 0}, {1, -8}}, {{0, 0}, {-2, 6}}, {{0, 0}, {3, 0}}};
     // Permuted per axis, signs changed: nothing drifted.
-    EXPECT_EQ(speedDrift(before, std::vector<BodyState>{{{}, {-3, 0}}, {{}, {1, 8}}, {{}, {2, 6}}}),
-              0);
-    EXPECT_EQ(speedDrift(before, std::vector<BodyState>{{{}, {1, 8}}, {{}, {2, 6}}, {{}, {5, 0}}}),
-              2.0 / 8);
+    EXPECT_EQ(
+        speedDrift(before,
+                   std::vector<BodyState>{{{0, 0}, {-3, 0}}, {{0, 0}, {1, 8}}, {{0, 0}, {2, 6}}}),
+        0);
+    EXPECT_EQ(
+        speedDrift(before,
+                   std::vector<BodyState>{{{0, 0}, {1, 8}}, {{0, 0}, {2, 6}}, {{0, 0}, {5, 0}}}),
+        2.0 / 8);
     // |vx| and |vy| are not exchanged for each other.
-    EXPECT_GT(speedDrift(before, std::vector<BodyState>{{{}, {8, 1}}, {{}, {6, 2}}, {{}, {0, 3}}}),
-              0);
+    EXPECT_GT(
+        speedDrift(before,
+                   std::vector<BodyState>{{{0, 0}, {8, 1}}, {{0, 0}, {6, 2}}, {{0, 0}, {0, 3}}}),
+        0);
     EXPECT_EQ(speedDrift({}, {}), 0);
 }
 

@@ -87,7 +87,10 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"--window-size", "640,480"}, Arguments{"--window-size", "9e3x480"},
         Arguments{"--speed", "0"}, Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"},
         Arguments{"--speed", "fast"}, Arguments{"--show", "cells"},
-        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"}),
+        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"},
+        Arguments{"--threads", "0"}, Arguments{"--threads", "-1"}, Arguments{"--threads", "1.5"},
+        Arguments{"--threads", "many"}, Arguments{"--threads", "1025"},
+        Arguments{"--threads", "99999999999999999999"}),
     nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
@@ -140,11 +143,6 @@ TEST(Usage, OneOutputOnStdout) {
 
 TEST(Usage, LawThatNeedsACompletePartition) {
     expectUsageError({"--law", "continuous", "--rebuild", "every:10"}, {"misses no pair"});
-}
-
-TEST(Usage, OptionsThatAreNotAvailableYet) {
-    expectUsageError({"--threads", "4"}, {"--threads", "yet"});
-    expectUsageError({"--threads", "0"}, {"--threads"});
 }
 
 TEST(Usage, NoScreenshotWithoutAWindow) {

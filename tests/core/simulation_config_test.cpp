@@ -71,8 +71,7 @@ TEST(Config, ValuesThatDoNotFitFloatAreRefused) {
 }
 
 TEST(Config, WhatDoesNotExistIsNotAvailable) {
-    for (const auto kind :
-         {ResolverKind::Threads, ResolverKind::Cuda, ResolverKind::CudaResident}) {
+    for (const auto kind : {ResolverKind::Cuda, ResolverKind::CudaResident}) {
         const std::string error =
             errorOf<NotAvailable>([&] { Simulation sim(World{}, {.resolver = kind}); });
         EXPECT_NE(error.find(name(kind)), std::string::npos) << error;

@@ -57,8 +57,7 @@ TEST_F(WindowRun, KeepsToTheStepWhateverTheSpeed) {
 }
 
 TEST_F(WindowRun, MeasuresTheErrorAsWithoutAWindow) {
-    const Arguments run = {"--scene",  "imbalanced", "--entities", "50",
-                           "--frames", "20",         "--error"};
+    const Arguments run = {"--scene", "imbalanced-clear", "--frames", "20", "--error"};
     start(run + Arguments{"--speed", "max", "--json", file("run.json")});
     const ProcessResult result = program_->finish();
     ASSERT_EQ(result.exitCode, 0) << result.err;

@@ -48,6 +48,31 @@ TEST_F(WindowSwitch, ALawThatIsChangedLiveGoesOnFromTheState) {
     EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "5"})["state_hash"]);
 }
 
+TEST_F(WindowSwitch, AResolverThatIsChangedLiveChangesNothing) {
+    startPausedRun({"--frames", "30", "--threads", "2", "--json", file("run.json")});
+    screen_->press("period");
+    ASSERT_TRUE(titleHas("step 1,"));
+    screen_->press("t");
+    screen_->press("space");
+    ASSERT_EQ(program_->finish().exitCode, 0);
+    const Json summary = Json::parse(contentOf(path("run.json")));
+    EXPECT_EQ(summary["resolver"], "threads");
+    EXPECT_EQ(summary["threads"], 2);
+    EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "30"})["state_hash"]);
+}
+
+TEST_F(WindowSwitch, ALawThatTheResolverDoesNotKnowRunsOnTheSequentialOne) {
+    startPausedRun({"--resolver", "threads", "--json", file("run.json")});
+    screen_->press("l");
+    screen_->press("period");
+    ASSERT_TRUE(titleHas("step 1,"));
+    close();
+    const Json summary = Json::parse(contentOf(path("run.json")));
+    EXPECT_EQ(summary["law"], "continuous");
+    EXPECT_EQ(summary["resolver"], "sequential");
+    EXPECT_EQ(summary["requested_resolver"], "threads");
+}
+
 /// What cannot be run is refused, and the run goes on as it was.
 TEST_F(WindowSwitch, ALawThatCannotRunIsRefused) {
     // The law 'continuous' needs a partition that misses no pair.

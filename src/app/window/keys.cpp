@@ -32,6 +32,7 @@ constexpr KeyCommand commands[] = {
     {SDLK_3, false, nullptr, "", choose<Quadtree>},
     {SDLK_4, false, nullptr, "", choose<SemiStaticQuadtree>},
     {SDLK_l, false, "L", "next contact law", [](B b, V) { b.nextLaw(); }},
+    {SDLK_t, false, "T", "next resolver", [](B b, V) { b.nextResolver(); }},
     {SDLK_g, false, "G", "gridlines", [](B, V v) { v.overlays.gridlines = !v.overlays.gridlines; }},
     {SDLK_m, false, "M", "heat map: bodies per cell",
      [](B, V v) { v.overlays.heatMap = !v.overlays.heatMap; }},

@@ -78,9 +78,12 @@ void showCountersPanel(const PanelContext& context) {
     row("energy drift", formatted("%.2g", m.energyDrift));
     row("missed pairs", config.countMissedPairs ? grouped(session.statistics().missedPairs())
                                                 : std::string("not measured"));
-    const std::string runs(name(config.resolver));
+    const std::string resolver(name(config.resolver));
     const std::string& wanted = session.run().requestedResolver;
-    row("runs on", wanted == runs || wanted == "auto" ? runs : runs + ", not " + wanted);
+    std::string runs = resolver;
+    if (simulation.threads() > 1) runs += formatted(" (%d threads)", simulation.threads());
+    if (wanted != resolver && wanted != "auto") runs += ", not " + wanted;
+    row("runs on", runs);
 }
 
 void showFrameTimePanel(const PanelContext& context) {

@@ -135,17 +135,34 @@ void Workbench::restart(Options options, const std::string& success) {
     say(success);
 }
 
-void Workbench::reconfigure(SimulationConfig config) {
+void Workbench::apply(SimulationConfig config) {
     config.countMissedPairs = options_->error || mayMissPairs(config.partitioner);
-    const bool otherResolver = config.resolver != this->config().resolver;
-    try {
-        session_->simulation().reconfigure(config);
-    } catch (const std::exception& error) {
-        say(error.what(), true);
-        return;
-    }
-    if (otherResolver) session_->run().requestedResolver = name(config.resolver);
+    session_->simulation().reconfigure(config);
     ++cellsVersion_;
+}
+
+void Workbench::reconfigure(SimulationConfig config) {
+    const ResolverKind before = this->config().resolver;
+    std::string reason;
+    try {
+        apply(config);
+        if (config.resolver != before) session_->run().requestedResolver = name(config.resolver);
+        return;
+    } catch (const std::exception& error) {
+        reason = error.what();
+    }
+    // A law may not run where the one before did; a resolver that was not chosen just now gives
+    // way.
+    if (config.resolver == before && before != ResolverKind::Sequential) {
+        config.resolver = ResolverKind::Sequential;
+        try {
+            apply(config);
+            reason += "; running 'sequential'";
+        } catch (const std::exception& error) {
+            reason = error.what();
+        }
+    }
+    say(reason, true);
 }
 
 void Workbench::setPartitioner(const PartitionerConfig& partitioner) {
@@ -158,6 +175,24 @@ void Workbench::nextLaw() {
     SimulationConfig next = config();
     next.law = static_cast<Law>((static_cast<int>(next.law) + 1) % 3);
     reconfigure(std::move(next));
+}
+
+void Workbench::nextResolver() {
+    constexpr int kinds = 4;
+    for (int i = 1; i < kinds; ++i) {
+        SimulationConfig next = config();
+        next.resolver = static_cast<ResolverKind>((static_cast<int>(next.resolver) + i) % kinds);
+        const std::string resolver(name(next.resolver));
+        try {
+            apply(next);
+        } catch (const std::exception&) {
+            continue;  // not here, or not with this law
+        }
+        session_->run().requestedResolver = resolver;
+        say("runs on " + resolver);
+        return;
+    }
+    say("no other resolver can run this");
 }
 
 // ---- looking closer

@@ -59,10 +59,13 @@ class Workbench {
     void reset();
     /// Goes on with another scene file; says so if it cannot, and keeps the old one.
     void open(const std::string& sceneFile);
-    /// Changes what a step is made with; says so if it cannot be run, and keeps the old.
+    /// Changes what a step is made with; says so if it cannot be run, and keeps the old. Where only
+    /// the resolver is in the way, and was not chosen now, the sequential one takes its place.
     void reconfigure(SimulationConfig config);
     void setPartitioner(const PartitionerConfig& partitioner);
     void nextLaw();
+    /// The next one that can run.
+    void nextResolver();
 
     /// Counts the changes of the cells, and of the run as a whole.
     std::uint64_t cellsVersion() const { return cellsVersion_; }
@@ -87,6 +90,8 @@ class Workbench {
     void start(Run run, Options options);
     /// The same, unless the options cannot be run; then says so, and the old run goes on.
     void restart(Options options, const std::string& success);
+    /// Throws what Simulation::reconfigure throws.
+    void apply(SimulationConfig config);
     void step();
     bool done() const { return session_->allFramesDone(); }
 
