@@ -171,7 +171,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->capture_default_str()
         ->group("Collisions");
     app.add_option("--resolver", options.resolver,
-                   "auto, sequential, threads, cuda or cuda-resident")
+                   "auto (threads for many bodies, where there is more than one core), sequential, "
+                   "threads, cuda or cuda-resident")
         ->check(CLI::IsMember({"auto", "sequential", "threads", "cuda", "cuda-resident"}))
         ->type_name("NAME")
         ->capture_default_str()

@@ -10,7 +10,7 @@ namespace quadrille {
 namespace {
 
 /// Nodes to share out for each worker: more even out the work, fewer leave more of it to it.
-constexpr std::size_t nodesPerWorker = 16;
+constexpr std::size_t nodesPerWorker = 4;
 
 }  // namespace
 

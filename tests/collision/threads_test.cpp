@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <ostream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -163,6 +164,10 @@ struct Shipped {
     std::string scene;
     std::uint64_t entities;  ///< 0: as many as the scene has
 };
+
+std::ostream& operator<<(std::ostream& out, const Shipped& s) {
+    return out << s.scene << ", " << s.entities << " entities";
+}
 
 class ShippedScenes : public testing::TestWithParam<std::tuple<Shipped, Precision>> {};
 
