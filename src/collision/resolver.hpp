@@ -8,17 +8,9 @@
 #include <quadrille/simulation.hpp>
 
 #include "collision/partitioner.hpp"
+#include "collision/step_parameters.hpp"
 
 namespace quadrille {
-
-/// The numbers of a step that a contact law uses.
-template <class Real>
-struct StepParameters {
-    double start;  ///< s since the start of the run
-    Real dt;
-    Real gravityX, gravityY;
-    Real restitution;
-};
 
 /// A contact as the resolvers hand it to observers.
 struct ContactRecord {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <quadrille/bodies.hpp>
+
+#include "collision/impulse_contact.hpp"
+#include "collision/resolver.hpp"
+
+/// The host's side of impulse_contact.hpp: from the engine's views and to its records.
+
+namespace quadrille {
+
+template <class Real>
+SharedColumn<Real> makeSharedColumn(const ColumnView<Real>& column) {
+    return {column.uniform() ? nullptr : column.values.data(), column.common};
+}
+
+template <class Real>
+ImpulseBodies<Real> makeImpulseBodies(const BodyView<Real>& bodies) {
+    const auto& m = bodies.moving;
+    const auto& f = bodies.fixed;
+    return {.moving = {.x = m.x.data(),
+                       .y = m.y.data(),
+                       .vx = m.vx.data(),
+                       .vy = m.vy.data(),
+                       .halfWidth = makeSharedColumn(m.halfWidth),
+                       .halfHeight = makeSharedColumn(m.halfHeight),
+                       .mass = makeSharedColumn(m.mass),
+                       .entity = m.entity.data()},
+            .fixed = {.x = f.x.data(),
+                      .y = f.y.data(),
+                      .halfWidth = f.halfWidth.data(),
+                      .halfHeight = f.halfHeight.data(),
+                      .entity = f.entity.data()}};
+}
+
+/// What observers are told about a contact; `stepStart` is in s since the start of the run.
+template <class Real>
+ContactRecord makeRecord(const PendingContact<Real>& c, double stepStart, bool collided) {
+    constexpr std::uint32_t staticBit = PendingContact<Real>::staticBit;
+    const auto b = static_cast<std::int64_t>(c.b & ~staticBit);
+    return {.time = stepStart + static_cast<double>(c.sinceStart),
+            .a = c.a,
+            .b = (c.b & staticBit) != 0 ? -1 - b : b,
+            .axes = c.axes,
+            .senseX = c.senseX,
+            .senseY = c.senseY,
+            .collided = collided};
+}
+
+}  // namespace quadrille
