@@ -23,14 +23,21 @@ struct Repeat {
 Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup) {
     Scene scene = openScene(runs.scene, runs.entities);
     const StepSettings step = scene.step;
-    Measurement result{.variant = variant, .scene = scene.name, .times = {}, .energyDrift = {}};
+    Measurement result{.variant = variant,
+                       .scene = scene.name,
+                       .times = {},
+                       .phaseMilliseconds = {},
+                       .energyDrift = {}};
 
     Simulation simulation(std::move(scene.world), {.partitioner = variant.partitioner,
                                                    .law = variant.law,
                                                    .precision = variant.precision,
+                                                   .resolver = variant.resolver,
                                                    .dt = step.dt,
                                                    .gravity = step.gravity,
-                                                   .restitution = step.restitution});
+                                                   .restitution = step.restitution,
+                                                   .profile = variant.profile,
+                                                   .cuda = variant.cuda});
     const World& world = simulation.world();
     const double energyAtStart = totalEnergy(world, step.gravity);
     simulation.run(warmup);
@@ -43,6 +50,9 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
         pairs += report.pairsTested;
         contacts += report.contacts;
         rebuilds += report.rebuilt;
+        for (std::size_t i = 0; i < phaseCount; ++i) {
+            result.phaseMilliseconds[i] += 1e3 * report.phaseSeconds[i] / double(runs.frames);
+        }
     });
 
     const double frames = double(runs.frames);
@@ -84,7 +94,10 @@ std::vector<Measurement> measure(const SceneRuns& runs, const Protocol& protocol
             if (repeats[i].size() < repeat) continue;  // left out in the first turn
             try {
                 repeats[i].push_back(runOnce(runs, runs.variants[i], protocol.warmup));
-            } catch (const NotAvailable& reason) {
+            } catch (const Error& reason) {
+                const bool missing = dynamic_cast<const NotAvailable*>(&reason) != nullptr ||
+                                     dynamic_cast<const DeviceError*>(&reason) != nullptr;
+                if (!missing) throw;
                 std::cerr << runs.scene << ", " << specOf(runs.variants[i].partitioner)
                           << ": left out: " << reason.what() << '\n';
             }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,9 @@ struct Variant {
     PartitionerConfig partitioner;
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
+    ResolverKind resolver = ResolverKind::Sequential;
+    CudaOptions cuda{};
+    bool profile = false;
 };
 
 /// A scene and the variants that are compared on it.
@@ -40,6 +44,7 @@ struct Measurement {
     std::string scene;
     std::size_t bodies = 0;  ///< that move
     FrameTimes times;
+    std::array<double, phaseCount> phaseMilliseconds{};  ///< mean a frame; only with a profile
     double pairsPerBody = 0;
     double contactsPerFrame = 0;
     double rebuildsPer100 = 0;

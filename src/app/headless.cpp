@@ -123,6 +123,7 @@ void runHeadless(Run run, const Options& options) {
     std::ostream& words = dataOnStdout ? std::cerr : std::cout;
 
     const Conserved start = Conserved::of(simulation);
+    bool deviceFailed = !simulation.resolverFailure().empty();
     RunStatistics statistics;
     PeriodicReport report(words, simulation, start.total);
     ProgressLine progress(options.frames);
@@ -137,6 +138,11 @@ void runHeadless(Run run, const Options& options) {
         const auto after = Clock::now();
         const double milliseconds = 1e3 * (secondsBetween(before, after) - step.auditSeconds);
         statistics.add(step, milliseconds);
+        if (!deviceFailed && !simulation.resolverFailure().empty()) {
+            progress.wipe();
+            warnOfFallback(simulation);
+            deviceFailed = true;
+        }
         if (frames) frames->record(simulation, step, milliseconds);
         if (secondsBetween(lastProgress, after) >= 0.2) {
             progress.show(statistics.frames());

@@ -25,6 +25,7 @@ struct Options {
     PartitionerConfig partitioner;
     std::string resolver = "auto";
     bool fallback = true;
+    CudaOptions cuda;
     std::optional<Law> law;
     std::optional<Precision> precision;
     std::optional<double> dt;

@@ -37,13 +37,16 @@ Start loadStart(const Options& options) {
             .step = scene.step};
 }
 
-ResolverKind chooseResolver(const Options& options) {
+ResolverKind chooseResolver(const Options& options, Law law) {
     if (options.resolver == "auto" || options.resolver == "sequential") {
         return ResolverKind::Sequential;
     }
-    const std::string reason = "the resolver '" + options.resolver + "' is not available yet";
+    if (options.resolver == "cuda" && law != Law::Continuous) return ResolverKind::Cuda;
+    const std::string reason = "the resolver '" + options.resolver +
+                               (options.resolver == "cuda" ? "' does not know the law 'continuous'"
+                                                           : "' is not available yet");
     if (!options.fallback) {
-        if (options.resolver == "threads") throw NotAvailable(reason);
+        if (options.resolver != "cuda-resident") throw NotAvailable(reason);
         throw NoDevice(reason);
     }
     std::cerr << "collisionStress: warning: " << reason << "; running 'sequential'\n";
@@ -59,23 +62,31 @@ bool missesPairs(const PartitionerConfig& partitioner) {
 
 }  // namespace
 
+void warnOfFallback(const Simulation& simulation) {
+    std::cerr << "collisionStress: warning: the resolver 'cuda' cannot run ("
+              << simulation.resolverFailure() << "); running 'sequential'\n";
+}
+
 Run setUp(const Options& options) {
     Start start = loadStart(options);
     SimulationConfig config;
     config.partitioner = options.partitioner;
     config.law = options.law.value_or(start.law);
     config.precision = options.precision.value_or(start.world.precision());
-    config.resolver = chooseResolver(options);
+    config.resolver = chooseResolver(options, config.law);
     config.dt = options.dt.value_or(start.step.dt);
     config.gravity = start.step.gravity;
     config.restitution = options.restitution.value_or(start.step.restitution);
     config.profile = options.profile;
     config.countMissedPairs = missesPairs(options.partitioner);
+    config.cuda = options.cuda;
+    config.fallback = options.fallback;
     Run run{.scene = std::move(start.scene),
             .seed = start.seed,
             .requestedResolver = options.resolver,
             .simulation = Simulation(std::move(start.world), config)};
     run.simulation.resumeAt(start.stepsDone);
+    if (!run.simulation.resolverFailure().empty()) warnOfFallback(run.simulation);
     return run;
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, phaseCount> phaseNames = {"integrate", "partition",
-                                                                 "resolve", "observe"};
+constexpr std::array<std::string_view, phaseCount> phaseNames = {
+    "integrate", "partition", "flatten", "copy_to_device", "resolve", "copy_to_host", "observe"};
 
 std::string hexadecimal(std::uint64_t value) {
     std::array<char, 17> text{};
@@ -82,14 +82,13 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["resolver"] = name(config.resolver);
     json["requested_resolver"] = run.requestedResolver;
     json["threads"] = 1;
-    json["device"] = nullptr;
+    json["device"] =
+        config.resolver == ResolverKind::Cuda ? Json(findCudaDevice().name) : Json(nullptr);
     json["ms_per_frame"] = {{"mean", times.mean}, {"median", times.median}, {"p99", times.p99}};
     if (config.profile) {
         const auto phases = statistics.phaseMilliseconds();
         Json& out = json["phases_ms"];
         for (std::size_t i = 0; i < phaseCount; ++i) out[std::string(phaseNames[i])] = phases[i];
-        // Nothing is flattened or copied where nothing runs on a device.
-        for (const char* phase : {"flatten", "copy_to_device", "copy_to_host"}) out[phase] = 0.0;
     } else {
         json["phases_ms"] = nullptr;
     }
@@ -144,6 +143,7 @@ void printSummary(std::ostream& out, const Json& json) {
     std::string resolver = text(json["resolver"]);
     const std::string requested = text(json["requested_resolver"]);
     if (requested != resolver) resolver += " (asked for: " + requested + ")";
+    if (!json["device"].is_null()) resolver += " on " + text(json["device"]);
     row("partitioner", text(json["partitioner"]) + ", resolver " + resolver);
     const Json& ms = json["ms_per_frame"];
     row("ms per frame", number(ms["mean"], "%.4f mean, ") + number(ms["median"], "%.4f median, ") +

@@ -15,6 +15,19 @@
 
 namespace quadrille {
 
+/// What is added to the sums of half extents when candidate pairs are collected: a little more than
+/// the margins of both, for the rounding of the distances walked since and of the sums themselves.
+template <class Real>
+Real candidateInflation(const BodyView<Real>& bodies, Real margin) {
+    Real largest = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
+    for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
+                              bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
+        for (const Real value : values) largest = std::max(largest, value);
+    }
+    constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
+    return 2 * margin * (1 + eps) + largest * eps;
+}
+
 /// The pairs whose boxes overlap when each is inflated by the margin of the partition: all that can
 /// meet before the partition is rebuilt (Verlet 1967).
 template <class Real>
@@ -46,26 +59,12 @@ class CandidatePairs {
                  const Sizes& sizes) {
         movingCount_ = 0;
         fixed_.clear();
-        // A little more than the margins of both, for the rounding of the distances walked since
-        // and of the sums of half extents.
-        constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
-        const Real inflation = 2 * partition.margin * (1 + eps) + largest(bodies) * eps;
         walk_.walk(
-            bodies, partition, sizes, inflation,
+            bodies, partition, sizes, candidateInflation(bodies, partition.margin),
             [&](std::uint32_t a, const std::uint32_t* others, Bits hits) {
                 append(a, others, hits);
             },
             [&](StaticPair p) { fixed_.push_back(p); });
-    }
-
-    /// The largest half extent of any body.
-    static Real largest(const BodyView<Real>& bodies) {
-        Real result = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
-        for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
-                                  bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
-            for (const Real value : values) result = std::max(result, value);
-        }
-        return result;
     }
 
     /// Most bodies have up to two neighbours in a block, and how many is a coin toss that a branch

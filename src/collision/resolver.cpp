@@ -4,6 +4,7 @@
 
 #include <quadrille/error.hpp>
 
+#include "collision/cuda_resolver.hpp"
 #include "collision/sequential_baseline.hpp"
 #include "collision/sequential_impulse.hpp"
 
@@ -37,6 +38,7 @@ std::string_view name(ResolverKind resolver) {
 
 template <class Real>
 std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config) {
+    if (config.resolver == ResolverKind::Cuda) return makeCudaResolver<Real>(config);
     if (config.resolver != ResolverKind::Sequential) {
         throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
                            "' is not available yet");

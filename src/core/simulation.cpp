@@ -34,6 +34,10 @@ void validate(const SimulationConfig& config) {
             throw Error("simulation: gravity does not fit single precision");
         }
     }
+    const int block = config.cuda.blockSize;
+    if (block < 32 || block > 1024 || block % 32 != 0) {
+        throw Error("simulation: the block size must be a multiple of 32 from 32 to 1024");
+    }
     if (!(config.restitution >= 0 && config.restitution <= 1)) {
         throw Error("simulation: restitution must be from 0 to 1");
     }
@@ -67,10 +71,20 @@ struct Simulation::Impl {
           config(std::move(c)),
           stepper(makeStepper(config, world.config().size)) {
         world.setPrecision(config.precision);
+        noteFallback();
     }
 
     void collectContacts();
     void notify();
+
+    const std::string& resolverFailure() const {
+        return std::visit([](const auto& s) -> const std::string& { return s.resolverFailure(); },
+                          stepper);
+    }
+    /// Says in the configuration what runs after a fallback.
+    void noteFallback() {
+        if (!resolverFailure().empty()) config.resolver = ResolverKind::Sequential;
+    }
 };
 
 Simulation::Simulation(World world, SimulationConfig config) {
@@ -98,6 +112,7 @@ const StepReport& Simulation::step() {
         },
         s.stepper);
     ++s.stepsDone;
+    s.noteFallback();
     s.notify();
     return s.report;
 }
@@ -149,6 +164,8 @@ void Simulation::run(std::uint64_t steps) {
 World& Simulation::world() { return impl_->world; }
 const World& Simulation::world() const { return impl_->world; }
 const SimulationConfig& Simulation::config() const { return impl_->config; }
+const std::string& Simulation::resolverFailure() const { return impl_->resolverFailure(); }
+
 std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
 double Simulation::time() const { return StepTimes(impl_->config.dt).at(impl_->stepsDone); }
 
@@ -170,6 +187,7 @@ void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
     std::visit([&](auto& s) { s.setPartitioner(config, impl_->world.config().size); },
                impl_->stepper);
     impl_->config = std::move(config);
+    impl_->noteFallback();
 }
 
 const Cells& Simulation::cells() const {

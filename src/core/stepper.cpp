@@ -7,6 +7,8 @@
 
 #include <quadrille/error.hpp>
 
+#include "collision/motion.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -17,10 +19,9 @@ void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, R
     Real* const v = velocity.data();
     const std::size_t count = position.size();
     if (gravity != 0) {
-        const Real change = gravity * dt;
-        for (std::size_t i = 0; i < count; ++i) v[i] += change;
+        for (std::size_t i = 0; i < count; ++i) v[i] = accelerated(v[i], gravity, dt);
     }
-    for (std::size_t i = 0; i < count; ++i) p[i] += v[i] * dt;
+    for (std::size_t i = 0; i < count; ++i) p[i] = moved(p[i], v[i], dt);
 }
 
 /// Stops a run before a NaN spreads.
@@ -73,9 +74,41 @@ void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& w
         }
         continuous_ = std::make_unique<SequentialContinuous<Real>>();
     } else {
-        resolver_ = makeResolver<Real>(config);
+        try {
+            resolver_ = makeResolver<Real>(config);
+        } catch (const DeviceError& failure) {
+            if (!config.fallback) throw;
+            useSequential(config, failure);
+        }
     }
     partitioner_ = std::move(partitioner);
+    config_ = config;
+    worldSize_ = worldSize;
+}
+
+template <class Real>
+void Stepper<Real>::useSequential(SimulationConfig config, const DeviceError& failure) {
+    config.resolver = ResolverKind::Sequential;
+    resolver_ = makeResolver<Real>(config);
+    resolverFailure_ = failure.what();
+}
+
+template <class Real>
+template <class Function>
+decltype(auto) Stepper<Real>::onResolver(const BodyView<Real>& bodies, StepReport& report,
+                                         Function&& function) {
+    try {
+        return function(*resolver_);
+    } catch (const DeviceError& failure) {
+        if (!config_.fallback) throw;
+        useSequential(config_, failure);
+    }
+    if (partitioner_->partition().complete) {
+        // Candidate pairs can be collected only when the cells are made, so they are made anew.
+        partitioner_ = makePartitioner<Real>(config_.partitioner, worldSize_);
+        updatePartition(bodies, Real(0), report);
+    }
+    return function(*resolver_);
 }
 
 template <class Real>
@@ -121,14 +154,17 @@ ResolveCounts Stepper<Real>::stepDiscrete(const BodyView<Real>& bodies, std::uin
     parameters_.start = times_.at(number - 1);
     integrate(bodies);
     clock.finish(Phase::Integrate);
+    onResolver(bodies, report,
+               [&](Resolver<Real>& r) { r.integrated(bodies, parameters_, clock); });
     updatePartition(bodies, Real(0), report);
     clock.finish(Phase::Partition);
     if (missedPairs_) {
         countMissedPairs(bodies, report);
         clock.restart();
     }
-    const ResolveCounts counts =
-        resolver_->resolve(bodies, partitioner_->partition(), parameters_, records);
+    const ResolveCounts counts = onResolver(bodies, report, [&](Resolver<Real>& r) {
+        return r.resolve(bodies, partitioner_->partition(), parameters_, records);
+    });
     clock.finish(Phase::Resolve);
     return counts;
 }

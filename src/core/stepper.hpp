@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include <quadrille/error.hpp>
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
@@ -28,6 +30,9 @@ class Stepper {
     void step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,
               StepReport& report, bool profile);
 
+    /// Why the resolver that was asked for was replaced by the sequential one; empty if it was not.
+    const std::string& resolverFailure() const { return resolverFailure_; }
+
     const Cells& cells() const { return partitioner_->partition().cells; }
     std::size_t bytes() const {
         return partitioner_->bytes() + (resolver_ ? resolver_->bytes() : continuous_->bytes());
@@ -43,6 +48,13 @@ class Stepper {
     void updatePartition(const BodyView<Real>& bodies, Real reach, StepReport& report);
     void integrate(const BodyView<Real>& bodies) const;
 
+    /// Calls `function(Resolver<Real>&)`. If a device fails in it, goes on with the sequential
+    /// resolver where the configuration allows that.
+    template <class Function>
+    decltype(auto) onResolver(const BodyView<Real>& bodies, StepReport& report,
+                              Function&& function);
+    void useSequential(SimulationConfig config, const DeviceError& failure);
+
     void countMissedPairs(const BodyView<Real>& bodies, StepReport& report);
 
     StepParameters<Real> parameters_;
@@ -51,6 +63,9 @@ class Stepper {
     std::unique_ptr<Resolver<Real>> resolver_;                // of a discrete law, or
     std::unique_ptr<SequentialContinuous<Real>> continuous_;  // of the continuous one
     StepTimes times_;
+    SimulationConfig config_;
+    Vec2 worldSize_{0, 0};
+    std::string resolverFailure_;
 };
 
 }  // namespace quadrille
