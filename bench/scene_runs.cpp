@@ -27,7 +27,8 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
                        .scene = scene.name,
                        .times = {},
                        .phaseMilliseconds = {},
-                       .energyDrift = {}};
+                       .energyDrift = {},
+                       .cells = {}};
 
     Simulation simulation(std::move(scene.world), {.partitioner = variant.partitioner,
                                                    .law = variant.law,
@@ -66,6 +67,7 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
         result.energyDrift = gain / std::abs(energyAtStart);
     }
     result.bytesPerBody = double(world.bytes() + simulation.workspaceBytes()) / bodies;
+    result.cells = load(simulation.cells());
     result.stateHash = stateHash(world);
     return {std::move(result), std::move(milliseconds)};
 }

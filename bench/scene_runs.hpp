@@ -50,6 +50,7 @@ struct Measurement {
     double rebuildsPer100 = 0;
     std::optional<double> energyDrift;  ///< relative; none where energy is not conserved
     double bytesPerBody = 0;
+    CellLoad cells;  ///< of the last frame
     std::uint64_t stateHash = 0;
 
     double nsPerBody(double milliseconds) const { return 1e6 * milliseconds / double(bodies); }

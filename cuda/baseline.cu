@@ -1,7 +1,7 @@
 #include <cuda/atomic>
 
 #include "collision/baseline_contact.hpp"
-#include "cuda/launch.cuh"
+#include "cuda/publish.cuh"
 
 // The law `baseline` in parallel with the result of one cell after the other. A cell must wait for
 // the earlier cells that hold one of its bodies, and for no others: each body counts its cells that
@@ -134,16 +134,18 @@ __global__ void resolveBaselineKernel(ImpulseBodies<Real> bodies, DeviceCells ce
     addFromBlock(&touched.counts->collisions, contacts);
 }
 
+/// A body has the velocity that its last contact gave it.
 template <class Real>
-__global__ void settleBaselineKernel(ImpulseBodies<Real> bodies, BaselineOrder<Real> order,
-                                     TouchedBodies touched) {
-    for (std::uint32_t i = threadNumber(); i < touched.counts->touched; i += threadCount()) {
-        const std::uint32_t row = touched.rows[i];
+struct TakeFuture {
+    ImpulseBodies<Real> bodies;
+    BaselineOrder<Real> order;
+
+    __device__ void operator()(std::uint32_t row) const {
         bodies.moving.vx[row] = order.futureX[row];
         bodies.moving.vy[row] = order.futureY[row];
         order.hit[row] = false;
     }
-}
+};
 
 }  // namespace
 
@@ -175,20 +177,19 @@ void resolveBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
 }
 
 template <class Real>
-void settleBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
-                    const BaselineOrder<Real>& order, const TouchedBodies& touched,
-                    std::uint32_t expected) {
-    settleBaselineKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0,
-                           launch.stream>>>(bodies, order, touched);
-    checkLaunch("settleBaselineKernel");
+void publishBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
+                     const BaselineOrder<Real>& order, const TouchedBodies& touched,
+                     const HostResult<Real>& result, std::uint32_t expected) {
+    publish(launch, bodies, touched, result, expected, TakeFuture<Real>{bodies, order});
 }
 
 #define QUADRILLE_INSTANTIATE(Real)                                                              \
     template void findCellTurns(const Launch&, const DeviceCells&, const BaselineOrder<Real>&);  \
     template void resolveBaseline(const Launch&, const ImpulseBodies<Real>&, const DeviceCells&, \
                                   const BaselineOrder<Real>&, Real, const TouchedBodies&);       \
-    template void settleBaseline(const Launch&, const ImpulseBodies<Real>&,                      \
-                                 const BaselineOrder<Real>&, const TouchedBodies&, std::uint32_t);
+    template void publishBaseline(const Launch&, const ImpulseBodies<Real>&,                     \
+                                  const BaselineOrder<Real>&, const TouchedBodies&,              \
+                                  const HostResult<Real>&, std::uint32_t);
 QUADRILLE_INSTANTIATE(double)
 QUADRILLE_INSTANTIATE(float)
 

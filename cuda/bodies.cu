@@ -19,21 +19,6 @@ __global__ void beginStepKernel(ImpulseBodies<Real> bodies, std::uint32_t moving
     m.y[row] = moved(m.y[row], m.vy[row], step.dt);
 }
 
-template <class Real>
-__global__ void publishKernel(ImpulseBodies<Real> bodies, TouchedBodies touched,
-                              HostResult<Real> result) {
-    const auto& m = bodies.moving;
-    for (std::uint32_t i = threadNumber(); i < touched.counts->touched; i += threadCount()) {
-        const std::uint32_t row = touched.rows[i];
-        result.rows[i] = row;
-        result.x[i] = m.x[row];
-        result.y[i] = m.y[row];
-        result.vx[i] = m.vx[row];
-        result.vy[i] = m.vy[row];
-    }
-    if (threadNumber() == 0) *result.counts = *touched.counts;
-}
-
 }  // namespace
 
 cudaError_t tryKernels() {
@@ -52,20 +37,9 @@ void beginStep(const Launch& launch, const ImpulseBodies<Real>& bodies, std::uin
     checkLaunch("beginStepKernel");
 }
 
-template <class Real>
-void publish(const Launch& launch, const ImpulseBodies<Real>& bodies, const TouchedBodies& touched,
-             const HostResult<Real>& result, std::uint32_t expected) {
-    publishKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0, launch.stream>>>(
-        bodies, touched, result);
-    checkLaunch("publishKernel");
-}
-
-#define QUADRILLE_INSTANTIATE(Real)                                                        \
-    template void beginStep(const Launch&, const ImpulseBodies<Real>&, std::uint32_t,      \
-                            const StepParameters<Real>&, bool, StepCounts*);               \
-    template void publish(const Launch&, const ImpulseBodies<Real>&, const TouchedBodies&, \
-                          const HostResult<Real>&, std::uint32_t);
-QUADRILLE_INSTANTIATE(double)
-QUADRILLE_INSTANTIATE(float)
+template void beginStep(const Launch&, const ImpulseBodies<double>&, std::uint32_t,
+                        const StepParameters<double>&, bool, StepCounts*);
+template void beginStep(const Launch&, const ImpulseBodies<float>&, std::uint32_t,
+                        const StepParameters<float>&, bool, StepCounts*);
 
 }  // namespace quadrille::cuda

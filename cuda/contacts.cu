@@ -64,27 +64,28 @@ struct Member {
     }
 };
 
-/// Compares members p and q of a cell, p standing before q. Returns whether there was anything to
-/// compare.
-template <class Real, class Found>
-__device__ bool compare(const DeviceCells& cells, std::uint32_t cell, const Member<Real>& p,
-                        const Member<Real>& q, Real inflation, const Found& found) {
-    if (p.fixed) return false;  // and so is q
+/// Whether members p and q of a cell overlap, p standing before q; two static ones never do.
+template <class Real>
+__device__ bool overlap(const Member<Real>& p, const Member<Real>& q, Real inflation) {
     // The inflation is added where the host adds it, so that rounding shows both the same pairs.
     const Member<Real>& wide = q.fixed ? q : p;
     const Member<Real>& other = q.fixed ? p : q;
-    const Real reachX = (wide.halfWidth + inflation) + other.halfWidth;
-    const Real reachY = (wide.halfHeight + inflation) + other.halfHeight;
-    if (!overlaps(q.x - p.x, q.y - p.y, reachX, reachY)) return true;
+    return !p.fixed & overlaps(q.x - p.x, q.y - p.y, (wide.halfWidth + inflation) + other.halfWidth,
+                               (wide.halfHeight + inflation) + other.halfHeight);
+}
+
+/// Hands out a pair of members that overlap, p standing before q, if it belongs to this cell.
+template <class Found>
+__device__ void handOut(const DeviceCells& cells, std::uint32_t cell, std::uint32_t p,
+                        std::uint32_t q, const Found& found) {
     if (cells.complete) {
         const CellCoordinates& corner = cells.coordinates[cell];
-        const CrossedEdges edgesP = crossedEdgesOf(corner, cells.ranges[p.body]);
-        const CrossedEdges edgesQ = crossedEdgesOf(corner, cells.ranges[q.body]);
-        if ((edgesP.left && edgesQ.left) || (edgesP.below && edgesQ.below)) return true;
+        const CrossedEdges edgesP = crossedEdgesOf(corner, cells.ranges[p]);
+        const CrossedEdges edgesQ = crossedEdgesOf(corner, cells.ranges[q]);
+        if ((edgesP.left && edgesQ.left) || (edgesP.below && edgesQ.below)) return;
     }
-    found(p.body,
-          q.fixed ? (q.body - cells.movingCount) | PendingContact<Real>::staticBit : q.body);
-    return true;
+    const bool fixed = q >= cells.movingCount;
+    found(p, fixed ? (q - cells.movingCount) | PendingContact<double>::staticBit : q);
 }
 
 /// The cell of an entry: the last that begins at or before it. Empty cells begin where the next
@@ -108,6 +109,8 @@ __device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t e
 template <class Real, class Found>
 __global__ void comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, Real inflation,
                                Found found, StepCounts* counts) {
+    // Several pairs are compared before one is handed out, so that their loads overlap.
+    constexpr std::uint32_t together = 8;
     unsigned long long tested = 0;
     const std::uint32_t entry = threadNumber();
     if (entry < cells.entries) {
@@ -116,12 +119,32 @@ __global__ void comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, Re
         const std::uint32_t members = cells.offsets[cell + 1] - first;
         const std::uint32_t i = entry - first;
         const Member<Real> self(bodies, cells, entry);
-        for (std::uint32_t k = 1; k <= members / 2; ++k) {
-            if (2 * k == members && i >= k) break;  // opposite members meet once
-            const std::uint32_t j = i + k < members ? i + k : i + k - members;
-            const Member<Real> other(bodies, cells, first + j);
-            tested += i < j ? compare(cells, cell, self, other, inflation, found)
-                            : compare(cells, cell, other, self, inflation, found);
+        // Opposite members of an even number meet once.
+        const std::uint32_t partners = (members - 1) / 2 + (members % 2 == 0 && 2 * i < members);
+        const auto partner = [&](std::uint32_t k) {
+            return i + k < members ? i + k : i + k - members;
+        };
+        for (std::uint32_t start = 1; start <= partners; start += together) {
+            std::uint32_t hits = 0;
+#pragma unroll
+            for (std::uint32_t l = 0; l < together; ++l) {
+                const bool inside = start + l <= partners;
+                const std::uint32_t j = partner(inside ? start + l : 0);
+                const Member<Real> other(bodies, cells, first + j);
+                const bool hit =
+                    i < j ? overlap(self, other, inflation) : overlap(other, self, inflation);
+                tested += inside && !(self.fixed && other.fixed);
+                hits |= std::uint32_t(inside && hit) << l;
+            }
+            for (; hits != 0; hits &= hits - 1) {
+                const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
+                const std::uint32_t other = cells.bodies[first + j];
+                if (i < j) {
+                    handOut(cells, cell, self.body, other, found);
+                } else {
+                    handOut(cells, cell, other, self.body, found);
+                }
+            }
         }
     }
     if (counts != nullptr) addFromBlock(&counts->tested, tested);
@@ -140,7 +163,10 @@ __global__ void comparePerCell(ImpulseBodies<Real> bodies, DeviceCells cells, Re
             if (self.fixed) break;
             for (std::uint32_t j = i + 1; j < last; ++j) {
                 const Member<Real> other(bodies, cells, j);
-                tested += compare(cells, cell, self, other, inflation, found);
+                ++tested;
+                if (overlap(self, other, inflation)) {
+                    handOut(cells, cell, self.body, other.body, found);
+                }
             }
         }
     }

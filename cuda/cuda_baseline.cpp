@@ -61,8 +61,10 @@ ResolveCounts CudaBaseline<Real>::resolve(const BodyView<Real>& bodies,
         }
         resolveBaseline(launch, state_.bodies(), state_.cells(), order, step.restitution,
                         state_.touched());
-        settleBaseline(launch, state_.bodies(), order, state_.touched(), 2 * expected_);
-        counts = state_.finish(2 * expected_);
+        state_.endPhase(Phase::Resolve);
+        publishBaseline(launch, state_.bodies(), order, state_.touched(), state_.hostResult(),
+                        2 * expected_);
+        counts = state_.finish();
         if (counts.contacts > none) {
             throw DeviceError("cuda: more contacts in a step than 32 bits can count");
         }

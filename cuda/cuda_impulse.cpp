@@ -32,24 +32,20 @@ ContactList<Real> CudaImpulse<Real>::list() const {
     return {.contacts = contacts_.data(),
             .nextA = nextA_.data(),
             .nextB = nextB_.data(),
-            .turns = turns_.data(),
+            .successors = successors_.data(),
+            .waiting = waiting_.data(),
             .collided = collided_.data(),
             .capacity = capacity_,
             .heads = heads_.data(),
-            .done = done_.data(),
             .counts = state_.counts()};
 }
 
 /// Makes the lists of all bodies empty, where a step has not left them so.
 template <class Real>
 void CudaImpulse<Real>::reserveLists() {
-    const std::size_t count = state_.movingCount();
-    const bool grown = heads_.reserve(count);
-    if (!(done_.reserve(count) || grown) && listsEmpty_) return;
-    const cudaStream_t stream = state_.launch().stream;
-    check(cudaMemsetAsync(heads_.data(), 0xff, heads_.capacity() * sizeof(std::uint32_t), stream),
-          "cudaMemsetAsync");
-    check(cudaMemsetAsync(done_.data(), 0, done_.capacity() * sizeof(std::uint32_t), stream),
+    if (!heads_.reserve(state_.movingCount()) && listsEmpty_) return;
+    check(cudaMemsetAsync(heads_.data(), 0xff, heads_.capacity() * sizeof(std::uint32_t),
+                          state_.launch().stream),
           "cudaMemsetAsync");
 }
 
@@ -60,7 +56,8 @@ void CudaImpulse<Real>::reserveContacts(std::uint64_t count) {
     contacts_.reserve(wanted);
     nextA_.reserve(wanted);
     nextB_.reserve(wanted);
-    turns_.reserve(wanted);
+    successors_.reserve(wanted);
+    waiting_.reserve(wanted);
     collided_.reserve(wanted);
     capacity_ = wanted;
 }
@@ -96,9 +93,11 @@ void CudaImpulse<Real>::launchStep(const Partition<Real>& partition,
         findContacts(launch, state_.bodies(), state_.cells(), step.dt, list());
     }
     if (!partition.complete) dropRepeats(launch, list(), expected_);
-    findTurns(launch, list(), expected_);
+    findSuccessors(launch, list(), expected_);
     resolveImpulse(launch, state_.bodies(), list(), step, state_.touched(), expected_);
-    clearLists(launch, list(), state_.touched(), 2 * expected_);
+    state_.endPhase(Phase::Resolve);
+    publishImpulse(launch, state_.bodies(), list(), state_.touched(), state_.hostResult(),
+                   2 * expected_);
 }
 
 template <class Real>
@@ -119,14 +118,14 @@ ResolveCounts CudaImpulse<Real>::resolve(const BodyView<Real>& bodies,
         collect(bodies, partition);
     }
     launchStep(partition, step);
-    StepCounts counts = state_.finish(2 * expected_);
+    StepCounts counts = state_.finish();
     while (counts.contacts > capacity_) {
         reserveContacts(counts.contacts + counts.contacts / 4);
         reserveLists();
         state_.zeroCounts();
         expected_ = count32(counts.contacts, "contacts");
         launchStep(partition, step);
-        counts = state_.finish(2 * expected_);
+        counts = state_.finish();
     }
     const auto found = static_cast<std::uint32_t>(counts.contacts);
     expected_ = std::max<std::uint32_t>(found + found / 4, 64);

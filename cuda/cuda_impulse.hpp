@@ -37,9 +37,10 @@ class CudaImpulse final : public Resolver<Real> {
     std::uint32_t candidateCount_ = 0;
     DeviceArray<PendingContact<Real>> contacts_{state_.budget()};
     DeviceArray<std::uint32_t> nextA_{state_.budget()}, nextB_{state_.budget()};
-    DeviceArray<Turn> turns_{state_.budget()};
+    DeviceArray<Successors> successors_{state_.budget()};
+    DeviceArray<std::uint32_t> waiting_{state_.budget()};
     DeviceArray<bool> collided_{state_.budget()};
-    DeviceArray<std::uint32_t> heads_{state_.budget()}, done_{state_.budget()};
+    DeviceArray<std::uint32_t> heads_{state_.budget()};
     std::uint32_t capacity_ = 0;  // contacts for which there is room
     std::uint32_t expected_ = 0;  // contacts, judging by the last step
     bool listsEmpty_ = false;

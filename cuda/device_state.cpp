@@ -162,16 +162,18 @@ void DeviceState<Real>::restart(const BodyView<Real>& view) {
 }
 
 template <class Real>
-const StepCounts& DeviceState<Real>::finish(std::uint32_t expected) {
-    endPhase(Phase::Resolve);
+HostResult<Real> DeviceState<Real>::hostResult() const {
     Real* const columns = hostColumns_.data();
-    const HostResult<Real> result{.counts = hostCounts_.data(),
-                                  .rows = hostRows_.data(),
-                                  .x = columns,
-                                  .y = columns + movingCount_,
-                                  .vx = columns + 2 * std::size_t(movingCount_),
-                                  .vy = columns + 3 * std::size_t(movingCount_)};
-    publish(launch(), bodies_, touched(), result, expected);
+    return {.counts = hostCounts_.data(),
+            .rows = hostRows_.data(),
+            .x = columns,
+            .y = columns + movingCount_,
+            .vx = columns + 2 * std::size_t(movingCount_),
+            .vy = columns + 3 * std::size_t(movingCount_)};
+}
+
+template <class Real>
+const StepCounts& DeviceState<Real>::finish() {
     stream_.wait();
     return *hostCounts_.data();
 }
@@ -179,16 +181,13 @@ const StepCounts& DeviceState<Real>::finish(std::uint32_t expected) {
 template <class Real>
 void DeviceState<Real>::writeBack(const BodyView<Real>& view) {
     const auto& m = view.moving;
-    const Real* const x = hostColumns_.data();
-    const Real* const y = x + movingCount_;
-    const Real* const vx = y + movingCount_;
-    const Real* const vy = vx + movingCount_;
-    for (std::uint32_t i = 0; i < hostCounts_.data()->touched; ++i) {
-        const std::uint32_t row = hostRows_.data()[i];
-        m.x[row] = x[i];
-        m.y[row] = y[i];
-        m.vx[row] = vx[i];
-        m.vy[row] = vy[i];
+    const HostResult<Real> result = hostResult();
+    for (std::uint32_t i = 0; i < result.counts->touched; ++i) {
+        const std::uint32_t row = result.rows[i];
+        m.x[row] = result.x[i];
+        m.y[row] = result.y[i];
+        m.vx[row] = result.vx[i];
+        m.vy[row] = result.vy[i];
     }
     valid_ = true;
     endPhase(Phase::CopyToHost);

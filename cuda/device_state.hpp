@@ -48,8 +48,10 @@ class DeviceState {
     void zeroCounts();
     /// Takes back what the step has done so far on the device, counts included.
     void restart(const BodyView<Real>& view);
-    /// Waits for the step's work and returns what it counted.
-    const StepCounts& finish(std::uint32_t expected);
+    /// Where the step's result is to be published.
+    HostResult<Real> hostResult() const;
+    /// Waits for the step's work, publishing included, and returns what it counted.
+    const StepCounts& finish();
     /// Copies what contacts have changed to the host's bodies; the step has then succeeded.
     void writeBack(const BodyView<Real>& view);
 

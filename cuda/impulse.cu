@@ -1,12 +1,12 @@
 #include <cuda/atomic>
 
-#include "cuda/launch.cuh"
+#include "cuda/publish.cuh"
 
 // The law `impulse` in parallel with the result of one contact after the other. What a contact does
-// depends only on the contacts of its two bodies that come before it in the canonical order. So
-// each contact has a turn in either body's order, and is resolved when both turns have come: the
-// dependence graph of deterministic reservations (Blelloch, Fineman, Gibbons & Shun 2012), walked
-// without rounds.
+// depends only on the contacts of its two bodies that come before it in the canonical order, so it
+// waits for at most two others: the one before it in either body's order. This is the dependence
+// graph of deterministic reservations (Blelloch, Fineman, Gibbons & Shun 2012), walked without a
+// sort and without rounds.
 
 namespace quadrille::cuda {
 
@@ -46,42 +46,43 @@ __global__ void dropRepeatsKernel(ContactList<Real> list) {
     });
 }
 
-/// The place of contact c among those of a body, and whether it is the last.
+/// Finds what follows contact c among those of a body. Returns 1 if another one comes before it.
 template <class Real>
-__device__ std::uint32_t turnOf(const ContactList<Real>& list, const PendingContact<Real>& c,
-                                std::uint32_t body) {
-    std::uint32_t earlier = 0;
-    std::uint32_t last = Turn::last;
-    forEachContact(list, body, [&](std::uint32_t, const PendingContact<Real>& d) {
+__device__ std::uint32_t placeAmong(const ContactList<Real>& list, const PendingContact<Real>& c,
+                                    std::uint32_t body, std::uint32_t& successor) {
+    std::uint32_t waits = 0;
+    PendingContact<Real> nearest;
+    successor = none;
+    forEachContact(list, body, [&](std::uint32_t i, const PendingContact<Real>& other) {
+        const PendingContact<Real> d = other;
         if (d.axes == 0) return;
-        if (before(d, c)) ++earlier;
-        if (before(c, d)) last = 0;
+        if (before(d, c)) {
+            waits = 1;
+        } else if (before(c, d) && (successor == none || before(d, nearest))) {
+            successor = i;
+            nearest = d;
+        }
     });
-    return earlier | last;
+    return waits;
 }
 
 template <class Real>
-__global__ void findTurnsKernel(ContactList<Real> list) {
+__global__ void findSuccessorsKernel(ContactList<Real> list) {
     forOwnContacts(list, [&](std::uint32_t i) {
         const PendingContact<Real> c = list.contacts[i];
-        const bool moving = (c.b & PendingContact<Real>::staticBit) == 0;
-        list.turns[i] = {turnOf(list, c, c.a), moving ? turnOf(list, c, c.b) : 0};
+        Successors successors{none, none};
+        std::uint32_t waiting = placeAmong(list, c, c.a, successors.a);
+        if ((c.b & PendingContact<Real>::staticBit) == 0) {
+            waiting += placeAmong(list, c, c.b, successors.b);
+        }
+        list.successors[i] = successors;
+        list.waiting[i] = waiting;
     });
 }
 
-/// One of the two bodies of a contact, seen from all threads of `Scope`.
-template <::cuda::thread_scope Scope>
-struct BodyTurn {
-    ::cuda::atomic_ref<std::uint32_t, Scope> done;
-    std::uint32_t turn;
-
-    __device__ BodyTurn(std::uint32_t& done, std::uint32_t turn) : done(done), turn(turn) {}
-    /// What the contacts before did to the body is then there to be read.
-    __device__ bool hasCome() const {
-        return done.load(::cuda::memory_order_acquire) == (turn & ~Turn::last);
-    }
-    __device__ void pass() { done.store((turn & ~Turn::last) + 1, ::cuda::memory_order_release); }
-};
+/// Threads of one block see each other's writes much sooner than those of others, which is worth
+/// more than their number until a thread has many contacts.
+constexpr std::uint32_t mostForOneBlock = 4096;
 
 /// Goes through the thread's contacts again and again until all are resolved. All threads must run
 /// at the same time: the earliest contact that is left can always be resolved, by whichever thread
@@ -90,52 +91,54 @@ template <class Real, ::cuda::thread_scope Scope>
 __global__ void __launch_bounds__(1024)
     resolveImpulseKernel(ImpulseBodies<Real> bodies, ContactList<Real> list,
                          StepParameters<Real> step, TouchedBodies touched) {
-    constexpr std::uint32_t staticBit = PendingContact<Real>::staticBit;
-    constexpr Turn resolved = {none, none};
+    using Waiting = ::cuda::atomic_ref<std::uint32_t, Scope>;
+    constexpr std::uint32_t resolved = none;
+
+    std::uint32_t* waiting = list.waiting;
+    if constexpr (Scope == ::cuda::thread_scope_block) {
+        __shared__ std::uint32_t nearby[mostForOneBlock];
+        if (list.counts->contacts <= mostForOneBlock) waiting = nearby;
+    }
     std::uint32_t left = 0;
     forOwnContacts(list, [&](std::uint32_t i) {
-        if (list.contacts[i].axes == 0) {
-            list.turns[i] = resolved;
-        } else {
-            ++left;
-        }
+        const bool dropped = list.contacts[i].axes == 0;
+        left += !dropped;
+        if (dropped || waiting != list.waiting) waiting[i] = dropped ? resolved : list.waiting[i];
     });
+    if constexpr (Scope == ::cuda::thread_scope_block) __syncthreads();
+
+    const auto pass = [&](std::uint32_t successor, std::uint32_t body) {
+        if (successor != none) {
+            Waiting(waiting[successor]).fetch_sub(1, ::cuda::memory_order_release);
+        } else {
+            touched.rows[countUp(&touched.counts->touched)] = body;
+        }
+    };
     unsigned long long collisions = 0;
     while (left > 0) {
         forOwnContacts(list, [&](std::uint32_t i) {
-            const Turn turn = list.turns[i];
-            if (turn.a == none) return;
+            // What the contacts before did to the bodies is then there to be read.
+            if (Waiting(waiting[i]).load(::cuda::memory_order_acquire) != 0) return;
             const PendingContact<Real> c = list.contacts[i];
-            const bool moving = (c.b & staticBit) == 0;
-            BodyTurn<Scope> a(list.done[c.a], turn.a);
-            BodyTurn<Scope> b(list.done[moving ? c.b : c.a], turn.b);
-            if (!a.hasCome() || (moving && !b.hasCome())) return;
+            const Successors successors = list.successors[i];
             const bool collided = resolveContact(bodies, c, step);
+            pass(successors.a, c.a);
+            if ((c.b & PendingContact<Real>::staticBit) == 0) pass(successors.b, c.b);
             list.collided[i] = collided;
             collisions += collided;
-            a.pass();
-            if ((turn.a & Turn::last) != 0) touched.rows[countUp(&touched.counts->touched)] = c.a;
-            if (moving) {
-                b.pass();
-                if ((turn.b & Turn::last) != 0) {
-                    touched.rows[countUp(&touched.counts->touched)] = c.b;
-                }
-            }
-            list.turns[i] = resolved;
+            Waiting(waiting[i]).store(resolved, ::cuda::memory_order_relaxed);
             --left;
         });
     }
     addFromBlock(&list.counts->collisions, collisions);
 }
 
-template <class Real>
-__global__ void clearListsKernel(ContactList<Real> list, TouchedBodies touched) {
-    for (std::uint32_t i = threadNumber(); i < touched.counts->touched; i += threadCount()) {
-        const std::uint32_t row = touched.rows[i];
-        list.heads[row] = none;
-        list.done[row] = 0;
-    }
-}
+/// A body without contacts, as between steps.
+struct ClearList {
+    std::uint32_t* heads;
+
+    __device__ void operator()(std::uint32_t row) const { heads[row] = none; }
+};
 
 }  // namespace
 
@@ -147,23 +150,20 @@ void dropRepeats(const Launch& launch, const ContactList<Real>& contacts, std::u
 }
 
 template <class Real>
-void findTurns(const Launch& launch, const ContactList<Real>& contacts, std::uint32_t expected) {
-    findTurnsKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0, launch.stream>>>(
-        contacts);
-    checkLaunch("findTurnsKernel");
+void findSuccessors(const Launch& launch, const ContactList<Real>& contacts,
+                    std::uint32_t expected) {
+    findSuccessorsKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0,
+                           launch.stream>>>(contacts);
+    checkLaunch("findSuccessorsKernel");
 }
 
 template <class Real>
 void resolveImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
                     const ContactList<Real>& contacts, const StepParameters<Real>& step,
                     const TouchedBodies& touched, std::uint32_t expected) {
-    // Threads of one block see each other's writes much sooner than those of others, which is worth
-    // more than their number until a thread has many contacts.
-    constexpr std::uint32_t mostForOneBlock = 4096;
-    constexpr int blockSize = 1024;
     if (expected <= mostForOneBlock) {
         resolveImpulseKernel<Real, ::cuda::thread_scope_block>
-            <<<1, blockSize, 0, launch.stream>>>(bodies, contacts, step, touched);
+            <<<1, 1024, 0, launch.stream>>>(bodies, contacts, step, touched);
         checkLaunch("resolveImpulseKernel");
     } else {
         launchTogether(launch, "resolveImpulseKernel",
@@ -173,21 +173,21 @@ void resolveImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
 }
 
 template <class Real>
-void clearLists(const Launch& launch, const ContactList<Real>& contacts,
-                const TouchedBodies& touched, std::uint32_t expected) {
-    clearListsKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0,
-                       launch.stream>>>(contacts, touched);
-    checkLaunch("clearListsKernel");
+void publishImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
+                    const ContactList<Real>& contacts, const TouchedBodies& touched,
+                    const HostResult<Real>& result, std::uint32_t expected) {
+    publish(launch, bodies, touched, result, expected, ClearList{contacts.heads});
 }
 
-#define QUADRILLE_INSTANTIATE(Real)                                                         \
-    template void dropRepeats(const Launch&, const ContactList<Real>&, std::uint32_t);      \
-    template void findTurns(const Launch&, const ContactList<Real>&, std::uint32_t);        \
-    template void resolveImpulse(const Launch&, const ImpulseBodies<Real>&,                 \
-                                 const ContactList<Real>&, const StepParameters<Real>&,     \
-                                 const TouchedBodies&, std::uint32_t);                      \
-    template void clearLists(const Launch&, const ContactList<Real>&, const TouchedBodies&, \
-                             std::uint32_t);
+#define QUADRILLE_INSTANTIATE(Real)                                                       \
+    template void dropRepeats(const Launch&, const ContactList<Real>&, std::uint32_t);    \
+    template void findSuccessors(const Launch&, const ContactList<Real>&, std::uint32_t); \
+    template void resolveImpulse(const Launch&, const ImpulseBodies<Real>&,               \
+                                 const ContactList<Real>&, const StepParameters<Real>&,   \
+                                 const TouchedBodies&, std::uint32_t);                    \
+    template void publishImpulse(const Launch&, const ImpulseBodies<Real>&,               \
+                                 const ContactList<Real>&, const TouchedBodies&,          \
+                                 const HostResult<Real>&, std::uint32_t);
 QUADRILLE_INSTANTIATE(double)
 QUADRILLE_INSTANTIATE(float)
 

@@ -28,11 +28,6 @@ template <class Real>
 void beginStep(const Launch& launch, const ImpulseBodies<Real>& bodies, std::uint32_t movingCount,
                const StepParameters<Real>& step, bool advance, StepCounts* counts);
 
-/// Writes the counts, and the bodies that contacts have changed, to the host.
-template <class Real>
-void publish(const Launch& launch, const ImpulseBodies<Real>& bodies, const TouchedBodies& touched,
-             const HostResult<Real>& result, std::uint32_t expected);
-
 // ---- contacts.cu
 
 /// Appends the pairs of each cell that overlap when `inflation` is added to the sums of their half
@@ -58,20 +53,24 @@ void testCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
 template <class Real>
 void dropRepeats(const Launch& launch, const ContactList<Real>& contacts, std::uint32_t expected);
 
-/// Finds the turn of each contact in the canonical order of its bodies' contacts.
+/// Finds which contacts follow each contact, and for how many it must wait.
 template <class Real>
-void findTurns(const Launch& launch, const ContactList<Real>& contacts, std::uint32_t expected);
+void findSuccessors(const Launch& launch, const ContactList<Real>& contacts,
+                    std::uint32_t expected);
 
-/// Resolves each contact at its turn. Does nothing if there was no room for all contacts.
+/// Resolves each contact after those that it waits for. Does nothing if there was no room for all
+/// contacts.
 template <class Real>
 void resolveImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
                     const ContactList<Real>& contacts, const StepParameters<Real>& step,
                     const TouchedBodies& touched, std::uint32_t expected);
 
-/// Makes the lists of the touched bodies empty again.
+/// Writes the counts, and the bodies that contacts have changed, to the host; makes the lists of
+/// these bodies empty again.
 template <class Real>
-void clearLists(const Launch& launch, const ContactList<Real>& contacts,
-                const TouchedBodies& touched, std::uint32_t expected);
+void publishImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
+                    const ContactList<Real>& contacts, const TouchedBodies& touched,
+                    const HostResult<Real>& result, std::uint32_t expected);
 
 // ---- baseline.cu
 
@@ -87,10 +86,10 @@ void resolveBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
                      const DeviceCells& cells, const BaselineOrder<Real>& order, Real restitution,
                      const TouchedBodies& touched);
 
-/// Gives the touched bodies their future velocities.
+/// Gives the touched bodies their future velocities, and writes them and the counts to the host.
 template <class Real>
-void settleBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
-                    const BaselineOrder<Real>& order, const TouchedBodies& touched,
-                    std::uint32_t expected);
+void publishBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
+                     const BaselineOrder<Real>& order, const TouchedBodies& touched,
+                     const HostResult<Real>& result, std::uint32_t expected);
 
 }  // namespace quadrille::cuda

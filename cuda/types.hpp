@@ -45,9 +45,9 @@ struct CandidateList {
     StepCounts* counts;
 };
 
-/// When a contact is resolved: after `a` other contacts of its first body and `b` of its second.
-struct Turn {
-    static constexpr std::uint32_t last = 0x8000'0000u;  ///< set where no other contact follows
+/// The contacts that follow a contact in the canonical order of its first body's contacts, and of
+/// its second's; `none` where it is the last.
+struct Successors {
     std::uint32_t a, b;
 };
 
@@ -56,11 +56,11 @@ template <class Real>
 struct ContactList {
     PendingContact<Real>* contacts;
     std::uint32_t *nextA, *nextB;  ///< of a contact: the next in the list of its body a, and b
-    Turn* turns;
+    Successors* successors;
+    std::uint32_t* waiting;  ///< of a contact: for how many others it must wait, 0 to 2
     bool* collided;
     std::uint32_t capacity;
     std::uint32_t* heads;  ///< of a moving body: the first of its contacts; `none` between steps
-    std::uint32_t* done;   ///< of a moving body: contacts resolved; 0 between steps
     StepCounts* counts;
 };
 

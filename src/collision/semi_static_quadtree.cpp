@@ -126,8 +126,10 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
                                                        Real reach) const {
     const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
     if (fixed > 0) return static_cast<Real>(fixed);
-    // The first tree shows how the bodies are spread, which decides about the second.
-    if (this->partition_.generation == 0) return 0;
+    // The first tree shows how the bodies are spread, which decides about the second; and so does
+    // the first tree of many more bodies.
+    const auto& last = this->partition_;
+    if (last.generation == 0 || last.ranges.size() < bodies.size() / 2) return 0;
 
     constexpr double buildPrice = 45;   // ns a body, for tree and walk through its cells
     constexpr double collectPrice = 8;  // ns a candidate pair, to be found and listed
