@@ -143,12 +143,16 @@ std::optional<double> nearest(const std::vector<CellPoint>& curve, double cells)
 /// hold.
 void cells(const Options& options) {
     Table table({"scene", "scheme", "thread_per", "cells", "active_cells", "mean_ms", "report_ms"});
-    const std::array<double, 8> sides = {400, 200, 100, 70, 50, 36, 26, 20};
+    const std::array<double, 8> sides = {320, 150, 100, 60, 45, 36, 26, 20};
     const std::array<int, 8> perLeaf = {400, 100, 50, 30, 20, 12, 7, 4};
     const auto addRows = [&](const std::string& scene, bool imbalanced) {
-        SceneRuns runs{scene, {}, {}, options.frames / 2};
-        if (!imbalanced) runs.entities = 1'700;
+        std::vector<Measurement> measurements;
         for (const CudaThread thread : {CudaThread::Cell, CudaThread::Body}) {
+            // A single thread for a crowded cell takes up to a second a frame.
+            const bool slow = thread == CudaThread::Cell;
+            SceneRuns runs{
+                scene, {}, {}, std::max<std::size_t>(1, options.frames / (slow ? 20 : 2))};
+            if (!imbalanced) runs.entities = 1'700;
             const auto add = [&](const PartitionerConfig& partitioner) {
                 runs.variants.push_back({.partitioner = partitioner,
                                          .resolver = ResolverKind::Cuda,
@@ -159,9 +163,13 @@ void cells(const Options& options) {
             for (const int most : perLeaf) {
                 add(SemiStaticQuadtree{10, most, SemiStaticQuadtree::EveryFrames{10}});
             }
+            std::cerr << "cells: " << scene << ", a thread a " << (slow ? "cell" : "body") << '\n';
+            Protocol protocol = options.protocol;
+            if (slow)
+                protocol = {.warmup = std::min<std::size_t>(protocol.warmup, 2), .repeats = 1};
+            for (Measurement& m : measure(runs, protocol)) measurements.push_back(std::move(m));
         }
-        std::cerr << "cells: " << scene << '\n';
-        for (const Measurement& m : measure(runs, options.protocol)) {
+        for (const Measurement& m : measurements) {
             const std::size_t kind = m.variant.partitioner.index();
             const auto report = std::holds_alternative<StaticGrid>(m.variant.partitioner)
                                     ? ReportScheme::GridCuda

@@ -110,11 +110,13 @@ __global__ void resolveBaselineKernel(ImpulseBodies<Real> bodies, DeviceCells ce
                         touch(order, touched, pair.a);
                         if (pair.moving) touch(order, touched, pair.b);
                         ++contacts;
-                        const auto place = atomicAdd(&touched.counts->contacts, 1ull);
-                        if (order.contacts != nullptr && place < order.capacity) {
+                        if (order.contacts != nullptr) {
+                            const auto place = atomicAdd(&touched.counts->contacts, 1ull);
                             const std::uint32_t b =
                                 pair.moving ? pair.b : pair.b | PendingContact<Real>::staticBit;
-                            order.contacts[place] = {cell, i - first, j - first, pair.a, b, p};
+                            if (place < order.capacity) {
+                                order.contacts[place] = {cell, i - first, j - first, pair.a, b, p};
+                            }
                         }
                     }
                     together();

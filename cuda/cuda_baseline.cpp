@@ -65,19 +65,20 @@ ResolveCounts CudaBaseline<Real>::resolve(const BodyView<Real>& bodies,
         publishBaseline(launch, state_.bodies(), order, state_.touched(), state_.hostResult(),
                         2 * expected_);
         counts = state_.finish();
-        if (counts.contacts > none) {
+        if (counts.collisions > none) {
             throw DeviceError("cuda: more contacts in a step than 32 bits can count");
         }
         expected_ = static_cast<std::uint32_t>(
-            std::clamp<std::uint64_t>(counts.contacts + counts.contacts / 4, 1024, none / 2));
-        if (records == nullptr || counts.contacts <= contacts_.capacity()) break;
+            std::clamp<std::uint64_t>(counts.collisions + counts.collisions / 4, 1024, none / 2));
+        if (records == nullptr || counts.collisions <= contacts_.capacity()) break;
         state_.restart(bodies);
     }
-    if (records != nullptr) appendRecords(counts.contacts, step, *records);
+    if (records != nullptr) appendRecords(counts.collisions, step, *records);
     hitsFalse_ = true;
     state_.writeBack(bodies);
-    return {
-        .contacts = counts.contacts, .collisions = counts.collisions, .pairsTested = counts.tested};
+    return {.contacts = counts.collisions,
+            .collisions = counts.collisions,
+            .pairsTested = counts.tested};
 }
 
 template <class Real>

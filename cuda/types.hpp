@@ -27,7 +27,7 @@ struct DeviceCells {
 /// What the kernels of a step count.
 struct StepCounts {
     unsigned long long tested;      ///< pairs compared
-    unsigned long long contacts;    ///< found, whether or not there was room for them
+    unsigned long long contacts;    ///< to be listed, whether or not there was room for them
     unsigned long long candidates;  ///< the same of candidate pairs
     unsigned long long collisions;
     unsigned int repeats;  ///< contacts that an incomplete partition showed again
