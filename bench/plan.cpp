@@ -1,8 +1,13 @@
 #include "bench/plan.hpp"
 
 #include <array>
+#include <charconv>
 #include <string_view>
+#include <system_error>
+#include <tuple>
 #include <utility>
+
+#include <quadrille/error.hpp>
 
 #include "bench/partitioner_spec.hpp"
 #include "bench/scene_files.hpp"
@@ -53,12 +58,42 @@ std::vector<std::string> shippedScenesWithMovingBodies(std::size_t least) {
 
 }  // namespace
 
+void parseResolver(std::string_view spec, Variant& variant) {
+    constexpr std::string_view counted = "threads:";
+    if (spec == "sequential") {
+        variant.resolver = ResolverKind::Sequential;
+        return;
+    }
+    variant.resolver = ResolverKind::Threads;
+    variant.threads = 0;
+    if (spec == "threads") return;
+    if (spec.starts_with(counted)) {
+        const char* const end = spec.data() + spec.size();
+        const auto read = std::from_chars(spec.data() + counted.size(), end, variant.threads);
+        if (read.ec == std::errc() && read.ptr == end && variant.threads > 0) return;
+    }
+    throw Error("resolver '" + std::string(spec) + "' is none of: sequential, threads, threads:N");
+}
+
+std::string resolverSpecOf(const Variant& variant) {
+    std::string spec(name(variant.resolver));
+    if (variant.threads > 0) spec += ':' + std::to_string(variant.threads);
+    return spec;
+}
+
 std::vector<SceneRuns> expand(const Sweep& sweep) {
     std::vector<Variant> variants;
     for (const Law law : sweep.laws) {
         for (const Precision precision : sweep.precisions) {
             for (const std::string& spec : sweep.partitioners) {
-                variants.push_back({parsePartitioner(spec), law, precision});
+                for (const std::string& resolver : sweep.resolvers) {
+                    variants.push_back({.partitioner = parsePartitioner(spec),
+                                        .law = law,
+                                        .precision = precision,
+                                        .label = {},
+                                        .change = {}});
+                    parseResolver(resolver, variants.back());
+                }
             }
         }
     }
@@ -93,6 +128,24 @@ std::vector<Sweep> targetsPreset() {
              .partitioners = {"quadtree:10/20", "semi-static-quadtree:10/20/skin"}}};
 }
 
+std::vector<Sweep> threadsPreset() {
+    std::vector<std::string> resolvers = {"sequential"};
+    for (int threads = 1; threads < Simulation::cores(); threads *= 2) {
+        resolvers.push_back("threads:" + std::to_string(threads));
+    }
+    resolvers.push_back("threads:" + std::to_string(Simulation::cores()));
+    return {
+        {.scenes = {"balanced", "balanced-scaled"},
+         .entities = {50'000},
+         .partitioners = {"semi-static-quadtree:10/20/skin"},
+         .resolvers = resolvers},
+        {.scenes = {"balanced-scaled"},
+         .entities = {1'000'000},
+         .partitioners = {"static-grid:26x26", "quadtree:10/20", "semi-static-quadtree:10/20/skin"},
+         .resolvers = resolvers,
+         .frames = 60}};
+}
+
 std::optional<Reference> reportReference(const Measurement& measurement) {
     if (measurement.scene != "balanced") return {};
     for (const ReportFigures& figures : reportFigures) {
@@ -115,11 +168,46 @@ std::optional<Reference> rebuiltTree(const Measurement& measurement,
         if (rebuilt != nullptr && rebuilt->maxDepth == kept->maxDepth &&
             rebuilt->maxPerCell == kept->maxPerCell &&
             other.variant.law == measurement.variant.law &&
-            other.variant.precision == measurement.variant.precision) {
+            other.variant.precision == measurement.variant.precision &&
+            resolverSpecOf(other.variant) == resolverSpecOf(measurement.variant)) {
             return Reference{specOf(other.variant.partitioner), other.times.mean};
         }
     }
     return {};
+}
+
+std::optional<Reference> sequentialResolver(const Measurement& measurement,
+                                            const std::vector<Measurement>& sameScene) {
+    if (measurement.variant.resolver == ResolverKind::Sequential) return {};
+    for (const Measurement& other : sameScene) {
+        if (other.variant.resolver == ResolverKind::Sequential &&
+            specOf(other.variant.partitioner) == specOf(measurement.variant.partitioner) &&
+            other.variant.law == measurement.variant.law &&
+            other.variant.precision == measurement.variant.precision) {
+            return Reference{"sequential", other.times.mean};
+        }
+    }
+    return {};
+}
+
+void requireOneState(const std::vector<Measurement>& sameScene) {
+    // `baseline` depends on the cells, and cells that are out of date miss pairs.
+    const auto keyOf = [](const Measurement& m) {
+        const auto* tree = std::get_if<SemiStaticQuadtree>(&m.variant.partitioner);
+        const bool stale = tree != nullptr &&
+                           std::holds_alternative<SemiStaticQuadtree::EveryFrames>(tree->rebuild);
+        const bool own = stale || m.variant.law == Law::Baseline;
+        return std::tuple(m.variant.law, m.variant.precision,
+                          own ? specOf(m.variant.partitioner) : std::string());
+    };
+    for (const Measurement& m : sameScene) {
+        for (const Measurement& other : sameScene) {
+            if (keyOf(m) != keyOf(other) || m.stateHash == other.stateHash) continue;
+            throw Error(m.scene + ": " + specOf(m.variant.partitioner) + " on " +
+                        resolverSpecOf(m.variant) + " and " + specOf(other.variant.partitioner) +
+                        " on " + resolverSpecOf(other.variant) + " end in different states");
+        }
+    }
 }
 
 }  // namespace quadrille::bench

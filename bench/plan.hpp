@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/scene_runs.hpp"
@@ -17,8 +18,16 @@ struct Sweep {
     std::vector<std::string> partitioners;
     std::vector<Law> laws{Law::Impulse};
     std::vector<Precision> precisions{Precision::Double};
+    std::vector<std::string> resolvers{"sequential"};
     std::size_t frames = 200;
 };
+
+/// Reads `sequential`, `threads` (one for each core) or `threads:N` into the variant. Throws Error
+/// for anything else.
+void parseResolver(std::string_view spec, Variant& variant);
+
+/// The spec of the resolver of a variant; parseResolver reads it back.
+std::string resolverSpecOf(const Variant& variant);
 
 std::vector<SceneRuns> expand(const Sweep& sweep);
 
@@ -27,6 +36,10 @@ std::vector<Sweep> reportPreset();
 
 /// The scenes that this project sets itself as targets.
 std::vector<Sweep> targetsPreset();
+
+/// What the threads are worth on this machine: 1, 2, 4 and so on up to its cores, against the
+/// sequential resolver.
+std::vector<Sweep> threadsPreset();
 
 /// What a measurement is compared with.
 struct Reference {
@@ -41,5 +54,12 @@ std::optional<Reference> reportReference(const Measurement& measurement);
 /// the runs of the same scene.
 std::optional<Reference> rebuiltTree(const Measurement& measurement,
                                      const std::vector<Measurement>& sameScene);
+
+/// The sequential resolver, for other ones among the runs of the same scene.
+std::optional<Reference> sequentialResolver(const Measurement& measurement,
+                                            const std::vector<Measurement>& sameScene);
+
+/// Throws Error if runs of one scene that must end in the same state do not.
+void requireOneState(const std::vector<Measurement>& sameScene);
 
 }  // namespace quadrille::bench

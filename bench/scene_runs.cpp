@@ -22,6 +22,8 @@ struct Repeat {
 
 Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup) {
     Scene scene = openScene(runs.scene, runs.entities);
+    if (runs.dt) scene.step.dt = *runs.dt;
+    if (variant.change) variant.change(scene);
     const StepSettings step = scene.step;
     Measurement result{.variant = variant,
                        .scene = scene.name,
@@ -34,11 +36,13 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
                                                    .law = variant.law,
                                                    .precision = variant.precision,
                                                    .resolver = variant.resolver,
+                                                   .threads = variant.threads,
                                                    .dt = step.dt,
                                                    .gravity = step.gravity,
                                                    .restitution = step.restitution,
                                                    .profile = variant.profile,
                                                    .cuda = variant.cuda});
+    if (variant.listener) simulation.onContact([](const Contact&) {});
     const World& world = simulation.world();
     const double energyAtStart = totalEnergy(world, step.gravity);
     simulation.run(warmup);

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <quadrille/bodies.hpp>
 #include <quadrille/partitioner.hpp>
+#include <quadrille/scene.hpp>
 #include <quadrille/simulation.hpp>
 
 #include "bench/statistics.hpp"
@@ -21,8 +23,12 @@ struct Variant {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
+    int threads = 0;  ///< 0: one for each core
     CudaOptions cuda{};
     bool profile = false;
+    std::string label;                   ///< what `change` makes of the scene
+    std::function<void(Scene&)> change;  ///< applied to the scene before it runs
+    bool listener = false;               ///< somebody listens to contacts
 };
 
 /// A scene and the variants that are compared on it.
@@ -31,6 +37,7 @@ struct SceneRuns {
     std::optional<std::uint64_t> entities;  ///< replaces the count of the first spawn group
     std::vector<Variant> variants;
     std::size_t frames = 200;
+    std::optional<double> dt;  ///< s; the scene's
 };
 
 /// What all scenes of a run share.

@@ -25,7 +25,7 @@ struct Options {
     Sweep sweep{.scenes = {"balanced"},
                 .entities = {},
                 .partitioners = {"static-grid", "quadtree", "semi-static-quadtree"}};
-    std::vector<std::string> laws, precisions;
+    std::vector<std::string> laws, precisions, resolvers;
     std::size_t frames = 0;
     Protocol protocol;
     TableFiles files;
@@ -54,7 +54,11 @@ void addOptions(CLI::App& app, Options& options) {
                      ->check(CLI::IsMember({"baseline", "impulse", "continuous"}));
     auto* precisions = app.add_option("--precisions", options.precisions, "(double)")
                            ->check(CLI::IsMember({"double", "float"}));
-    for (auto* list : {scenes, entities, partitioners, laws, precisions}) list->delimiter(',');
+    auto* resolvers = app.add_option("--resolvers", options.resolvers,
+                                     "sequential, threads or threads:N (sequential)");
+    for (auto* list : {scenes, entities, partitioners, laws, precisions, resolvers}) {
+        list->delimiter(',');
+    }
     app.add_option("--frames", options.frames, "timed frames per repeat (200)")
         ->check(CLI::PositiveNumber);
     app.add_option("--warmup", options.protocol.warmup, "frames before them")
@@ -65,8 +69,9 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--csv", options.files.csv, "write the table as CSV");
     app.add_option("--markdown", options.files.markdown, "write the table as Markdown");
     app.add_option("--preset", options.preset,
-                   "report: the report's scaling experiment; targets: the project's own targets")
-        ->check(CLI::IsMember({"report", "targets"}))
+                   "report: the report's scaling experiment; targets: the project's own targets; "
+                   "threads: what threads are worth")
+        ->check(CLI::IsMember({"report", "targets", "threads"}))
         ->excludes(scenes)
         ->excludes(entities)
         ->excludes(partitioners);
@@ -76,6 +81,7 @@ void addOptions(CLI::App& app, Options& options) {
 std::vector<Sweep> sweepsOf(const Options& options) {
     std::vector<Sweep> sweeps = options.preset == "report"    ? reportPreset()
                                 : options.preset == "targets" ? targetsPreset()
+                                : options.preset == "threads" ? threadsPreset()
                                                               : std::vector{options.sweep};
     for (Sweep& sweep : sweeps) {
         if (!options.laws.empty()) {
@@ -84,6 +90,7 @@ std::vector<Sweep> sweepsOf(const Options& options) {
         if (!options.precisions.empty()) {
             sweep.precisions = named(options.precisions, {Precision::Double, Precision::Float});
         }
+        if (!options.resolvers.empty()) sweep.resolvers = options.resolvers;
         if (options.frames > 0) sweep.frames = options.frames;
     }
     return sweeps;
@@ -104,6 +111,7 @@ Table makeTable() {
                   "partitioner",
                   "law",
                   "precision",
+                  "resolver",
                   "mean_ms",
                   "median_ms",
                   "p99_ms",
@@ -129,6 +137,7 @@ void addRow(Table& table, const Measurement& m, bool fastest,
                specOf(m.variant.partitioner),
                std::string(name(m.variant.law)),
                std::string(name(m.variant.precision)),
+               resolverSpecOf(m.variant),
                number(m.times.mean),
                number(m.times.median),
                number(m.times.p99),
@@ -159,9 +168,14 @@ void run(const Options& options) {
                   << runs.variants.size() << " rows\n";
         const std::vector<Measurement> measurements = measure(runs, options.protocol);
         for (const Measurement& m : measurements) {
-            addRow(table, m, isFastest(m, measurements),
-                   options.preset == "report" ? reportReference(m) : rebuiltTree(m, measurements));
+            auto reference = sequentialResolver(m, measurements);
+            if (!reference) {
+                reference =
+                    options.preset == "report" ? reportReference(m) : rebuiltTree(m, measurements);
+            }
+            addRow(table, m, isFastest(m, measurements), reference);
         }
+        requireOneState(measurements);
     }
     publish(table, options.files,
             {std::to_string(options.protocol.repeats) + " repeats, " +

@@ -64,7 +64,7 @@ void CudaImpulse<Real>::reserveContacts(std::uint64_t count) {
 
 template <class Real>
 void CudaImpulse<Real>::collect(const BodyView<Real>& bodies, const Partition<Real>& partition) {
-    const Real inflation = candidateInflation(bodies, partition.margin);
+    const Real inflation = CandidatePairs<Real>::inflationOf(bodies, partition);
     if (candidates_.capacity() == 0)
         candidates_.reserve(4 * std::size_t(state_.movingCount()) + 64);
     for (;;) {

@@ -13,67 +13,53 @@ namespace quadrille {
 /// How coordinates and velocities are stored and computed.
 enum class Precision : std::uint8_t { Double, Float };
 
-/// Exact motion, kept by the law `continuous`: where and when each body's straight path began. Rows
-/// without an anchor (new, or edited from outside) have NaN as their time.
+/// Where, when and how fast a body set out on its present path, along each axis: one record,
+/// because an event reads all of it.
+template <class Real>
+struct Anchor {
+    Real x, y;            ///< px
+    Real vx, vy;          ///< px/s
+    double timeX, timeY;  ///< s; NaN for a body that is new or was edited from outside
+};
+
+/// Exact motion, kept by the law `continuous`.
 template <class Real>
 struct Anchors {
     bool enabled = false;
-    std::size_t missing = 0;      ///< rows that may have no anchor
-    std::vector<Real> x, y;       ///< px
-    Column<double> timeX, timeY;  ///< s
-
-    /// Anchors all bodies where they are.
-    void start(std::span<const Real> px, std::span<const Real> py, double now) {
-        *this = {};
-        enabled = true;
-        x.assign(px.begin(), px.end());
-        y.assign(py.begin(), py.end());
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            timeX.push_back(now);
-            timeY.push_back(now);
-        }
-    }
-
-    /// Anchors one body.
-    void put(std::size_t row, Real px, Real py, double now) {
-        x[row] = px;
-        y[row] = py;
-        timeX.set(row, now);
-        timeY.set(row, now);
-    }
+    bool incomplete = false;  ///< some rows may have no anchor
+    std::vector<Anchor<Real>> rows;
+    /// Bit 0 along x, bit 1 along y: whether the body rests on something and does not fall.
+    Column<std::uint8_t> rests;
 
     void append() {
         if (!enabled) return;
-        x.push_back(0);
-        y.push_back(0);
-        timeX.push_back(std::numeric_limits<double>::quiet_NaN());
-        timeY.push_back(std::numeric_limits<double>::quiet_NaN());
-        ++missing;
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        rows.push_back({0, 0, 0, 0, unknown, unknown});
+        rests.push_back(0);
+        incomplete = true;
     }
 
     /// Takes the anchor of a body that was edited.
     void forget(std::size_t row) {
         if (!enabled) return;
-        timeX.set(row, std::numeric_limits<double>::quiet_NaN());
-        timeY.set(row, std::numeric_limits<double>::quiet_NaN());
-        ++missing;
+        rows[row].timeX = rows[row].timeY = std::numeric_limits<double>::quiet_NaN();
+        rests.set(row, 0);
+        incomplete = true;
     }
 
     void move(std::size_t from, std::size_t to) {
         if (!enabled) return;
-        for (auto* column : {&x, &y}) (*column)[to] = (*column)[from];
-        for (auto* column : {&timeX, &timeY}) column->move(from, to);
+        rows[to] = rows[from];
+        rests.move(from, to);
     }
 
     void shrink(std::size_t size) {
         if (!enabled) return;
-        for (auto* column : {&x, &y}) column->resize(size);
-        for (auto* column : {&timeX, &timeY}) column->shrink(size);
+        rows.resize(size);
+        rests.shrink(size);
     }
 
-    std::size_t bytes() const {
-        return (x.capacity() + y.capacity()) * sizeof(Real) + timeX.bytes() + timeY.bytes();
-    }
+    std::size_t bytes() const { return rows.capacity() * sizeof(Anchor<Real>) + rests.bytes(); }
 };
 
 /// The moving bodies in order of creation, one row each. Positions are centres in px, velocities in

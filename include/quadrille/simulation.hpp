@@ -38,11 +38,14 @@ struct SimulationConfig {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
+    int threads = 0;                ///< of Threads, and of Cuda on the host; 0: one for each core
     double dt = 1.0 / 60;           ///< s
     Vec2 gravity{0, 0};             ///< px/s^2
     double restitution = 1;         ///< in [0, 1]
     bool profile = false;           ///< measure the phases of each step
     bool countMissedPairs = false;  ///< compare the broad phase with a complete one in each step
+    /// With countMissedPairs: in the first step, and in about one of so many.
+    std::uint64_t missedPairsEvery = 1;
     CudaOptions cuda{};
     /// A device that is missing or fails is replaced by the resolver `sequential`, which gives the
     /// same result; otherwise it is a DeviceError.
@@ -70,6 +73,11 @@ struct StepReport {
     bool rebuilt = false;           ///< the partition was built in this step
     std::uint64_t missedPairs = 0;  ///< only with SimulationConfig::countMissedPairs
     double auditSeconds = 0;        ///< what counting them took
+    /// Pairs that a complete broad phase shows; counted if `audited`, as missedPairs are.
+    std::uint64_t overlappingPairs = 0;
+    bool audited = false;
+    /// What listeners and observers took.
+    double observeSeconds = 0;
     std::array<double, phaseCount> phaseSeconds{};  ///< only with SimulationConfig::profile
 };
 
@@ -126,6 +134,11 @@ class Simulation {
 
     /// The cells of the last step; empty before the first.
     const Cells& cells() const;
+
+    /// Threads that a step may use.
+    int threads() const;
+    /// Cores that this process may use: what SimulationConfig::threads = 0 stands for.
+    static int cores();
 
     ModelFeatures features() const;
 

@@ -19,6 +19,8 @@
 #define QUADRILLE_ISATTY(stream) (isatty(fileno(stream)) != 0)
 #endif
 
+#include "accuracy/error_meter.hpp"
+#include "app/error_summary.hpp"
 #include "app/interrupt.hpp"
 #include "app/output_file.hpp"
 #include "app/recorders.hpp"
@@ -122,6 +124,9 @@ void runHeadless(Run run, const Options& options) {
                               options.dumpState == "-" || options.dumpEvents == "-";
     std::ostream& words = dataOnStdout ? std::cerr : std::cout;
 
+    std::optional<accuracy::ErrorMeter> meter;
+    if (options.error) meter.emplace(simulation);
+
     const Conserved start = Conserved::of(simulation);
     bool deviceFailed = !simulation.resolverFailure().empty();
     RunStatistics statistics;
@@ -136,13 +141,15 @@ void runHeadless(Run run, const Options& options) {
         const auto before = Clock::now();
         const StepReport& step = simulation.step();
         const auto after = Clock::now();
-        const double milliseconds = 1e3 * (secondsBetween(before, after) - step.auditSeconds);
+        const double milliseconds =
+            1e3 * (secondsBetween(before, after) - step.auditSeconds - step.observeSeconds);
         statistics.add(step, milliseconds);
         if (!deviceFailed && !simulation.resolverFailure().empty()) {
             progress.wipe();
             warnOfFallback(simulation);
             deviceFailed = true;
         }
+        if (meter) meter->follow();
         if (frames) frames->record(simulation, step, milliseconds);
         if (secondsBetween(lastProgress, after) >= 0.2) {
             progress.show(statistics.frames());
@@ -157,8 +164,15 @@ void runHeadless(Run run, const Options& options) {
     }
     progress.wipe();
     report.print(statistics);
-    const auto summary = summaryJson(run, statistics, start);
+    auto summary = summaryJson(run, statistics, start);
     printSummary(words, summary);
+    if (meter) {
+        summary["error"] = nullptr;  // interrupted before the first frame
+        if (statistics.frames() > 0) {
+            summary["error"] = errorJson(meter->metrics());
+            printError(words, summary["error"]);
+        }
+    }
 
     if (frames) frames->commit();
     if (events) events->commit();

@@ -25,8 +25,10 @@ int run(int argc, char** argv) {
     }
     if (options.explain) {
         Run run = setUp(options);
-        // Events are written from a listener.
-        if (!options.dumpEvents.empty()) run.simulation.onContact([](const Contact&) {});
+        // Events are written, and compared, from a listener.
+        if (!options.dumpEvents.empty() || options.error) {
+            run.simulation.onContact([](const Contact&) {});
+        }
         explain(std::cout, run);
         return done;
     }

@@ -26,8 +26,6 @@ struct RawOptions {
     std::string rebuild = "skin";
     std::string law, precision;
     std::string cudaThread = "body";
-    std::optional<unsigned> threads;
-    bool error = false;
     std::string screenshot;
 };
 
@@ -184,13 +182,17 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("POLICY")
         ->capture_default_str()
         ->group("Collisions");
-    app.add_option("--resolver", options.resolver,
-                   "auto, sequential, threads, cuda or cuda-resident")
+    app.add_option(
+           "--resolver", options.resolver,
+           "auto (cuda or threads for many bodies, where there is a device or more than one "
+           "core), sequential, threads, cuda or cuda-resident")
         ->check(CLI::IsMember({"auto", "sequential", "threads", "cuda", "cuda-resident"}))
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
-    app.add_option("--threads", raw.threads, "Threads of the resolver 'threads' (all cores)")
+    app.add_option("--threads", options.threads,
+                   "Threads of the resolver 'threads', and of 'cuda' on the host (all cores)")
+        ->check(CLI::Range(1, 1024))
         ->type_name("N")
         ->group("Collisions");
     app.add_option("--block-size", options.cuda.blockSize,
@@ -233,7 +235,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->capture_default_str()
         ->group("Run");
     app.add_flag("--profile", options.profile, "Measure the phases of a frame")->group("Run");
-    app.add_flag("--error", raw.error, "Measure the error against the reference")->group("Run");
+    app.add_flag("--error", options.error, "Measure the error against the event-driven reference")
+        ->group("Run");
 
     app.add_option("--json", options.json, "Write the run's summary ('-' is stdout)")
         ->check(fileName)
@@ -295,8 +298,9 @@ void interpret(Options& options, const RawOptions& raw) {
     if (!raw.law.empty()) options.law = laws.at(raw.law);
     if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
     options.cuda.threadPer = raw.cudaThread == "cell" ? CudaThread::Cell : CudaThread::Body;
-    if (raw.threads) throw UsageError("--threads: this version has no threaded resolver yet");
-    if (raw.error) throw UsageError("--error: this version has no reference to compare with yet");
+    if (options.error && options.frames == 0) {
+        throw UsageError("--error: there is nothing to compare after --frames 0");
+    }
     if (!raw.screenshot.empty()) throw UsageError("--screenshot: this version has no window yet");
     int onStdout = 0;
     for (const std::string* file :

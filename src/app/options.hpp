@@ -24,6 +24,7 @@ struct Options {
 
     PartitionerConfig partitioner;
     std::string resolver = "auto";
+    std::optional<int> threads;
     bool fallback = true;
     CudaOptions cuda;
     std::optional<Law> law;
@@ -35,6 +36,7 @@ struct Options {
     bool list = false;
     bool explain = false;
     bool profile = false;
+    bool error = false;
     std::optional<std::uint64_t> frames;
     std::optional<double> duration;  ///< wall s
     double reportEvery = 5;          ///< wall s

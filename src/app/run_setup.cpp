@@ -39,24 +39,38 @@ Start loadStart(const Options& options) {
 
 /// Moving bodies from which a device is faster than one core under the law `impulse`, measured on
 /// an H200 beside a Xeon (docs/cuda.md). A tree with a skin leaves little to do in most steps.
-std::size_t cudaBreakEven(const PartitionerConfig& partitioner) {
+std::size_t cudaPaysFrom(const PartitionerConfig& partitioner) {
     const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
     const bool skin =
         tree != nullptr && std::holds_alternative<SemiStaticQuadtree::Skin>(tree->rebuild);
     return skin ? 20'000 : 5'000;
 }
 
-ResolverKind chooseResolver(const Options& options, Law law, std::size_t movingCount) {
-    if (options.resolver == "auto") {
-        // The device is looked for last: that takes longer than many a small run.
-        const bool pays = law == Law::Impulse && movingCount >= cudaBreakEven(options.partitioner);
-        return pays && findCudaDevice().usable() ? ResolverKind::Cuda : ResolverKind::Sequential;
+/// From how many moving bodies on `auto` takes the threads: docs/performance.md has the figures.
+constexpr std::size_t threadsPayFrom = 10'000;
+
+ResolverKind chooseAutomatically(const SimulationConfig& config, std::size_t movingCount) {
+    if (config.law != Law::Impulse) return ResolverKind::Sequential;
+    // The device is looked for last: that takes longer than many a small run.
+    if (movingCount >= cudaPaysFrom(config.partitioner) && findCudaDevice().usable()) {
+        return ResolverKind::Cuda;
     }
+    const bool several = config.threads > 0 ? config.threads > 1 : Simulation::cores() > 1;
+    return several && movingCount >= threadsPayFrom ? ResolverKind::Threads
+                                                    : ResolverKind::Sequential;
+}
+
+ResolverKind chooseResolver(const Options& options, const SimulationConfig& config,
+                            std::size_t movingCount) {
+    if (options.resolver == "auto") return chooseAutomatically(config, movingCount);
     if (options.resolver == "sequential") return ResolverKind::Sequential;
-    if (options.resolver == "cuda" && law != Law::Continuous) return ResolverKind::Cuda;
-    const std::string reason = "the resolver '" + options.resolver +
-                               (options.resolver == "cuda" ? "' does not know the law 'continuous'"
-                                                           : "' is not available yet");
+    if (options.resolver == "threads" && config.law == Law::Impulse) return ResolverKind::Threads;
+    if (options.resolver == "cuda" && config.law != Law::Continuous) return ResolverKind::Cuda;
+    const std::string reason = options.resolver == "cuda-resident"
+                                   ? "the resolver 'cuda-resident' is not available yet"
+                                   : "the law '" + std::string(name(config.law)) +
+                                         "' does not run on the resolver '" + options.resolver +
+                                         "'";
     if (!options.fallback) {
         if (options.resolver != "cuda-resident") throw NotAvailable(reason);
         throw NoDevice(reason);
@@ -66,11 +80,15 @@ ResolverKind chooseResolver(const Options& options, Law law, std::size_t movingC
 }
 
 /// The report's policy misses pairs; how many is part of its result.
-bool missesPairs(const PartitionerConfig& partitioner) {
+bool mayMissPairs(const PartitionerConfig& partitioner) {
     const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
     return tree != nullptr &&
            std::holds_alternative<SemiStaticQuadtree::EveryFrames>(tree->rebuild);
 }
+
+/// With --error, all pairs of scenes up to this size are compared in every frame, and in one of ten
+/// where there are more bodies.
+constexpr std::size_t mostAuditedInEveryFrame = 20'000;
 
 }  // namespace
 
@@ -85,12 +103,16 @@ Run setUp(const Options& options) {
     config.partitioner = options.partitioner;
     config.law = options.law.value_or(start.law);
     config.precision = options.precision.value_or(start.world.precision());
-    config.resolver = chooseResolver(options, config.law, start.world.movingCount());
+    config.threads = options.threads.value_or(0);
+    config.resolver = chooseResolver(options, config, start.world.movingCount());
     config.dt = options.dt.value_or(start.step.dt);
     config.gravity = start.step.gravity;
     config.restitution = options.restitution.value_or(start.step.restitution);
     config.profile = options.profile;
-    config.countMissedPairs = missesPairs(options.partitioner);
+    config.countMissedPairs = options.error || mayMissPairs(options.partitioner);
+    if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {
+        config.missedPairsEvery = 10;
+    }
     config.cuda = options.cuda;
     config.fallback = options.fallback;
     Run run{.scene = std::move(start.scene),

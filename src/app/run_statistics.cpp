@@ -21,6 +21,7 @@ void RunStatistics::add(const StepReport& report, double milliseconds) {
     collisions_ += report.collisions;
     pairsTested_ += report.pairsTested;
     missedPairs_ += report.missedPairs;
+    auditedFrames_ += report.audited;
     rebuilds_ += report.rebuilt;
 }
 

@@ -81,7 +81,7 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["partitioner_parameters"] = partitionerParameters(config.partitioner);
     json["resolver"] = name(config.resolver);
     json["requested_resolver"] = run.requestedResolver;
-    json["threads"] = 1;
+    json["threads"] = run.simulation.threads();
     json["device"] =
         config.resolver == ResolverKind::Cuda ? Json(findCudaDevice().name) : Json(nullptr);
     json["ms_per_frame"] = {{"mean", times.mean}, {"median", times.median}, {"p99", times.p99}};
@@ -100,6 +100,8 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["contacts"] = statistics.contacts();
     json["collisions"] = statistics.collisions();
     json["missed_pairs"] = config.countMissedPairs ? Json(statistics.missedPairs()) : Json(nullptr);
+    json["missed_pairs_frames"] =
+        config.countMissedPairs ? Json(statistics.auditedFrames()) : Json(nullptr);
     json["rebuilds"] = statistics.rebuilds();
     json["kinetic_energy"] = {{"start", start.kinetic},
                               {"end", end.kinetic},
@@ -142,7 +144,10 @@ void printSummary(std::ostream& out, const Json& json) {
                    text(json["law"]) + ", " + text(json["precision"]));
     std::string resolver = text(json["resolver"]);
     const std::string requested = text(json["requested_resolver"]);
-    if (requested != resolver) resolver += " (asked for: " + requested + ")";
+    if (resolver == name(ResolverKind::Threads)) {
+        resolver += " (" + json["threads"].dump() + " threads)";
+    }
+    if (requested != text(json["resolver"])) resolver += " (asked for: " + requested + ")";
     if (!json["device"].is_null()) resolver += " on " + text(json["device"]);
     row("partitioner", text(json["partitioner"]) + ", resolver " + resolver);
     const Json& ms = json["ms_per_frame"];
@@ -165,7 +170,8 @@ void printSummary(std::ostream& out, const Json& json) {
                      " contacts, " + json["collisions"].dump() + " collisions, " +
                      json["rebuilds"].dump() + " rebuilds");
     if (!json["missed_pairs"].is_null()) {
-        row("missed pairs", json["missed_pairs"].dump() + ", by the policy of the partitioner");
+        row("missed pairs", json["missed_pairs"].dump() + " by the broad phase, in " +
+                                json["missed_pairs_frames"].dump() + " frames looked at");
     }
     row("kinetic energy", number(json["kinetic_energy"]["end"], "%.9g, drift ") +
                               number(json["kinetic_energy"]["relative_drift"], "%.3g"));

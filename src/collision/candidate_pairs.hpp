@@ -12,21 +12,9 @@
 #include "collision/cell_walk.hpp"
 #include "collision/hit_bits.hpp"
 #include "collision/partitioner.hpp"
+#include "collision/thread_team.hpp"
 
 namespace quadrille {
-
-/// What is added to the sums of half extents when candidate pairs are collected: a little more than
-/// the margins of both, for the rounding of the distances walked since and of the sums themselves.
-template <class Real>
-Real candidateInflation(const BodyView<Real>& bodies, Real margin) {
-    Real largest = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
-    for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
-                              bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
-        for (const Real value : values) largest = std::max(largest, value);
-    }
-    constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
-    return 2 * margin * (1 + eps) + largest * eps;
-}
 
 /// The pairs whose boxes overlap when each is inflated by the margin of the partition: all that can
 /// meet before the partition is rebuilt (Verlet 1967).
@@ -37,9 +25,36 @@ class CandidatePairs {
     /// did.
     bool update(const BodyView<Real>& bodies, const Partition<Real>& partition) {
         if (collected_ == partition.generation) return false;
-        withSizes(bodies, [&](const auto& sizes) { collect(bodies, partition, sizes); });
+        clear();
+        add(bodies, partition, inflationOf(bodies, partition), 0, partition.cells.size());
         collected_ = partition.generation;
         return true;
+    }
+
+    // ---- or, where several lists share a partition, each with some of its cells
+
+    void clear() {
+        movingCount_ = 0;
+        fixed_.clear();
+    }
+
+    void add(const BodyView<Real>& bodies, const Partition<Real>& partition, Real inflation,
+             std::size_t firstCell, std::size_t lastCell) {
+        const auto onMoving = [&](std::uint32_t a, const std::uint32_t* others, Bits hits) {
+            append(a, others, hits);
+        };
+        withSizes(bodies, [&](const auto& sizes) {
+            walk_.walk(bodies, partition, sizes, inflation, firstCell, lastCell, onMoving,
+                       [&](StaticPair p) { fixed_.push_back(p); });
+        });
+    }
+
+    /// What to add to the sums of half extents: a little more than the margins of both, for the
+    /// rounding of the distances walked since and of the sums themselves.
+    static Real inflationOf(const BodyView<Real>& bodies, const Partition<Real>& partition,
+                            const ThreadTeam& team = ThreadTeam::serial()) {
+        constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
+        return 2 * partition.margin * (1 + eps) + largest(bodies, team) * eps;
     }
 
     std::span<const MovingPair> moving() const { return {moving_.data(), movingCount_}; }
@@ -54,17 +69,21 @@ class CandidatePairs {
   private:
     using Bits = HitBits<Real>;
 
-    template <class Sizes>
-    void collect(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                 const Sizes& sizes) {
-        movingCount_ = 0;
-        fixed_.clear();
-        walk_.walk(
-            bodies, partition, sizes, candidateInflation(bodies, partition.margin),
-            [&](std::uint32_t a, const std::uint32_t* others, Bits hits) {
-                append(a, others, hits);
-            },
-            [&](StaticPair p) { fixed_.push_back(p); });
+    /// The largest half extent of any body.
+    static Real largest(const BodyView<Real>& bodies, const ThreadTeam& team) {
+        Real result = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
+        for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
+                                  bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
+            const Real most = team.maximum<Real>(values.size(), worthwhile::streamed,
+                                                 [&](std::size_t begin, std::size_t end) {
+                                                     Real part = 0;
+                                                     for (std::size_t i = begin; i < end; ++i)
+                                                         part = std::max(part, values[i]);
+                                                     return part;
+                                                 });
+            result = std::max(result, most);
+        }
+        return result;
     }
 
     /// Most bodies have up to two neighbours in a block, and how many is a coin toss that a branch

@@ -35,6 +35,17 @@ struct PendingContact {
     std::int8_t senseX, senseY;
 };
 
+template <class Real>
+QUADRILLE_HD inline bool isStatic(const PendingContact<Real>& c) {
+    return (c.b & PendingContact<Real>::staticBit) != 0;
+}
+
+/// Cells that are out of date may show a pair more than once.
+template <class Real>
+QUADRILLE_HD inline bool samePair(const PendingContact<Real>& p, const PendingContact<Real>& q) {
+    return p.a == q.a && p.b == q.b;
+}
+
 /// The canonical order: by physics and ids alone.
 template <class Real>
 QUADRILLE_HD inline bool before(const PendingContact<Real>& p, const PendingContact<Real>& q) {

@@ -58,20 +58,20 @@ decltype(auto) withSizes(const BodyView<Real>& bodies, Function&& function) {
 template <class Real>
 class CellWalk {
   public:
-    /// Finds every pair whose boxes overlap when `inflation` is added to the sums of their half
-    /// extents; from a complete partition, each pair once. Moving bodies come as `onMoving(a,
-    /// others, hits)`: body `a` overlaps others[l] for each set bit l of `hits`, which may be none.
-    /// Pairs with static bodies come as `onStatic(StaticPair)`. Returns the number of pairs
-    /// compared.
+    /// Finds every pair of the cells from `first` to `last` whose boxes overlap when `inflation` is
+    /// added to the sums of their half extents; from a complete partition, each pair once. Moving
+    /// bodies come as `onMoving(a, others, hits)`: body `a` overlaps others[l] for each set bit l
+    /// of `hits`, which may be none. Pairs with static bodies come as `onStatic(StaticPair)`.
+    /// Returns the number of pairs compared.
     template <class Sizes, class OnMoving, class OnStatic>
     std::uint64_t walk(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                       const Sizes& sizes, Real inflation, OnMoving&& onMoving,
-                       OnStatic&& onStatic) {
+                       const Sizes& sizes, Real inflation, std::size_t first, std::size_t last,
+                       OnMoving&& onMoving, OnStatic&& onStatic) {
         const auto& f = bodies.fixed;
         const Cells& cells = partition.cells;
         const auto movingCount = static_cast<std::uint32_t>(bodies.moving.size());
         std::uint64_t tested = 0;
-        for (std::size_t c = 0; c < cells.size(); ++c) {
+        for (std::size_t c = first; c < last; ++c) {
             const auto members = cells[c];
             if (members.size() < 2) continue;
             // Members ascend, so the static ones stand last.

@@ -10,6 +10,7 @@
 #include <quadrille/vec2.hpp>
 
 #include "collision/cell_ownership.hpp"
+#include "collision/thread_team.hpp"
 
 namespace quadrille {
 
@@ -48,24 +49,34 @@ struct FineGrid {
     }
 
     /// Ranges of all bodies, moving ones first, with every box inflated by `margin` on each side.
-    void ranges(const BodyView<Real>& bodies, Real margin, std::vector<FineRange>& out) const {
-        const auto& m = bodies.moving;
-        const auto& f = bodies.fixed;
+    void ranges(const BodyView<Real>& bodies, Real margin, std::vector<FineRange>& out,
+                const ThreadTeam& team) const {
         out.resize(bodies.size());
+        team.shares(bodies.moving.size(), worthwhile::built,
+                    [&](std::size_t begin, std::size_t end, unsigned) {
+                        movingRanges(bodies, margin, begin, end, out.data());
+                    });
+        const auto& f = bodies.fixed;
+        for (std::size_t k = 0; k < f.size(); ++k) {
+            out[bodies.moving.size() + k] =
+                range(f.x[k], f.y[k], f.halfWidth[k] + margin, f.halfHeight[k] + margin);
+        }
+    }
+
+  private:
+    void movingRanges(const BodyView<Real>& bodies, Real margin, std::size_t begin, std::size_t end,
+                      FineRange* out) const {
+        const auto& m = bodies.moving;
         if (m.halfWidth.uniform() && m.halfHeight.uniform()) {
             const Real halfWidth = m.halfWidth.common + margin;
             const Real halfHeight = m.halfHeight.common + margin;
-            for (std::size_t i = 0; i < m.size(); ++i) {
+            for (std::size_t i = begin; i < end; ++i) {
                 out[i] = range(m.x[i], m.y[i], halfWidth, halfHeight);
             }
         } else {
-            for (std::size_t i = 0; i < m.size(); ++i) {
+            for (std::size_t i = begin; i < end; ++i) {
                 out[i] = range(m.x[i], m.y[i], m.halfWidth[i] + margin, m.halfHeight[i] + margin);
             }
-        }
-        for (std::size_t k = 0; k < f.size(); ++k) {
-            out[m.size() + k] =
-                range(f.x[k], f.y[k], f.halfWidth[k] + margin, f.halfHeight[k] + margin);
         }
     }
 };

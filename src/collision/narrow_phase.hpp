@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <quadrille/bodies.hpp>
 
@@ -12,6 +13,50 @@
 #include "collision/partitioner.hpp"
 
 namespace quadrille {
+
+/// Calls `onMoving(MovingPair)` for those of the pairs that overlap.
+template <class Real, class Sizes, class OnMoving>
+void testMoving(const BodyView<Real>& bodies, const Sizes& sizes, std::span<const MovingPair> pairs,
+                OnMoving&& onMoving) {
+    const Real* const x = bodies.moving.x.data();
+    const Real* const y = bodies.moving.y.data();
+    const auto touch = [&](MovingPair p) {
+        return overlaps(x[p.b] - x[p.a], y[p.b] - y[p.a], sizes.width(p.a) + sizes.width(p.b),
+                        sizes.height(p.a) + sizes.height(p.b));
+    };
+    const MovingPair* pair = pairs.data();
+    const MovingPair* const end = pair + pairs.size();
+    for (; end - pair >= static_cast<std::ptrdiff_t>(hitBlock<Real>); pair += hitBlock<Real>) {
+        forEachBit(hitBits<Real>([&](std::size_t l) { return touch(pair[l]); }),
+                   [&](std::size_t l) { onMoving(pair[l]); });
+    }
+    for (; pair != end; ++pair) {
+        if (touch(*pair)) onMoving(*pair);
+    }
+}
+
+/// Calls `onStatic(StaticPair)` for those of the pairs that overlap.
+template <class Real, class Sizes, class OnStatic>
+void testStatic(const BodyView<Real>& bodies, const Sizes& sizes, std::span<const StaticPair> pairs,
+                OnStatic&& onStatic) {
+    const auto& m = bodies.moving;
+    const auto& f = bodies.fixed;
+    for (const StaticPair p : pairs) {
+        if (overlaps(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a],
+                     sizes.width(p.a) + f.halfWidth[p.fixed],
+                     sizes.height(p.a) + f.halfHeight[p.fixed])) {
+            onStatic(p);
+        }
+    }
+}
+
+/// Turns the hits that a walk through cells hands out into calls of `onMoving(MovingPair)`.
+template <class OnMoving>
+auto asPairs(OnMoving& onMoving) {
+    return [&onMoving](std::uint32_t a, const std::uint32_t* others, auto hits) {
+        forEachBit(hits, [&](std::size_t l) { onMoving(MovingPair{a, others[l]}); });
+    };
+}
 
 /// Finds the pairs of bodies that overlap, each exactly once. While a partition keeps its cells for
 /// several steps (it has a margin), only the candidate pairs are tested in each step.
@@ -25,14 +70,12 @@ class NarrowPhase {
                        OnMoving&& onMoving, OnStatic&& onStatic) {
         return withSizes(bodies, [&](const auto& sizes) -> std::uint64_t {
             if (!(partition.margin > 0)) {
-                const auto each = [&](std::uint32_t a, const std::uint32_t* others, auto hits) {
-                    forEachBit(hits, [&](std::size_t l) { onMoving(MovingPair{a, others[l]}); });
-                };
-                return walk_.walk(bodies, partition, sizes, Real(0), each, onStatic);
+                return walk_.walk(bodies, partition, sizes, Real(0), 0, partition.cells.size(),
+                                  asPairs(onMoving), onStatic);
             }
             candidates_.update(bodies, partition);
-            testMoving(bodies, sizes, onMoving);
-            testStatic(bodies, sizes, onStatic);
+            testMoving(bodies, sizes, candidates_.moving(), onMoving);
+            testStatic(bodies, sizes, candidates_.fixed(), onStatic);
             return candidates_.size();
         });
     }
@@ -40,39 +83,6 @@ class NarrowPhase {
     std::size_t bytes() const { return walk_.bytes() + candidates_.bytes(); }
 
   private:
-    template <class Sizes, class OnMoving>
-    void testMoving(const BodyView<Real>& bodies, const Sizes& sizes, OnMoving&& onMoving) const {
-        const Real* const x = bodies.moving.x.data();
-        const Real* const y = bodies.moving.y.data();
-        const auto touch = [&](MovingPair p) {
-            return overlaps(x[p.b] - x[p.a], y[p.b] - y[p.a], sizes.width(p.a) + sizes.width(p.b),
-                            sizes.height(p.a) + sizes.height(p.b));
-        };
-        const auto pairs = candidates_.moving();
-        const MovingPair* pair = pairs.data();
-        const MovingPair* const end = pair + pairs.size();
-        for (; end - pair >= static_cast<std::ptrdiff_t>(hitBlock<Real>); pair += hitBlock<Real>) {
-            forEachBit(hitBits<Real>([&](std::size_t l) { return touch(pair[l]); }),
-                       [&](std::size_t l) { onMoving(pair[l]); });
-        }
-        for (; pair != end; ++pair) {
-            if (touch(*pair)) onMoving(*pair);
-        }
-    }
-
-    template <class Sizes, class OnStatic>
-    void testStatic(const BodyView<Real>& bodies, const Sizes& sizes, OnStatic&& onStatic) const {
-        const auto& m = bodies.moving;
-        const auto& f = bodies.fixed;
-        for (const StaticPair p : candidates_.fixed()) {
-            if (overlaps(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a],
-                         sizes.width(p.a) + f.halfWidth[p.fixed],
-                         sizes.height(p.a) + f.halfHeight[p.fixed])) {
-                onStatic(p);
-            }
-        }
-    }
-
     CellWalk<Real> walk_;
     CandidatePairs<Real> candidates_;
 };

@@ -45,24 +45,25 @@ CellLoad load(const Cells& cells) {
 
 template <class Real>
 std::unique_ptr<Partitioner<Real>> makePartitioner(const PartitionerConfig& config,
-                                                   const Vec2& worldSize) {
+                                                   const Vec2& worldSize, const ThreadTeam& team) {
     return std::visit(
         [&]<class C>(const C& c) -> std::unique_ptr<Partitioner<Real>> {
             if constexpr (std::is_same_v<C, BruteForce>) {
                 return std::make_unique<BruteForcePartitioner<Real>>(worldSize);
             } else if constexpr (std::is_same_v<C, StaticGrid>) {
-                return std::make_unique<StaticGridPartitioner<Real>>(c, worldSize);
+                return std::make_unique<StaticGridPartitioner<Real>>(c, worldSize, team);
             } else if constexpr (std::is_same_v<C, Quadtree>) {
-                return std::make_unique<QuadtreePartitioner<Real>>(c, worldSize);
+                return std::make_unique<QuadtreePartitioner<Real>>(c, worldSize, team);
             } else {
-                return std::make_unique<SemiStaticQuadtreePartitioner<Real>>(c, worldSize);
+                return std::make_unique<SemiStaticQuadtreePartitioner<Real>>(c, worldSize, team);
             }
         },
         config);
 }
 
-template std::unique_ptr<Partitioner<double>> makePartitioner(const PartitionerConfig&,
-                                                              const Vec2&);
-template std::unique_ptr<Partitioner<float>> makePartitioner(const PartitionerConfig&, const Vec2&);
+template std::unique_ptr<Partitioner<double>> makePartitioner(const PartitionerConfig&, const Vec2&,
+                                                              const ThreadTeam&);
+template std::unique_ptr<Partitioner<float>> makePartitioner(const PartitionerConfig&, const Vec2&,
+                                                             const ThreadTeam&);
 
 }  // namespace quadrille

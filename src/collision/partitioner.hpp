@@ -10,6 +10,7 @@
 
 #include "collision/cell_ownership.hpp"
 #include "collision/fine_grid.hpp"
+#include "collision/thread_team.hpp"
 
 namespace quadrille {
 
@@ -56,9 +57,11 @@ class Partitioner {
     Partition<Real> partition_;
 };
 
+/// `team` builds the cells and must outlive the partitioner; they are the same whatever its size.
 /// Throws Error for impossible parameters.
 template <class Real>
 std::unique_ptr<Partitioner<Real>> makePartitioner(const PartitionerConfig& config,
-                                                   const Vec2& worldSize);
+                                                   const Vec2& worldSize,
+                                                   const ThreadTeam& team = ThreadTeam::serial());
 
 }  // namespace quadrille

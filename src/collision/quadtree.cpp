@@ -2,121 +2,120 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include <quadrille/error.hpp>
 
 namespace quadrille {
 
+namespace {
+
+/// Nodes to share out for each worker: more even out the work, fewer leave more of it to it.
+constexpr std::size_t nodesPerWorker = 4;
+
+}  // namespace
+
 template <class Real>
-QuadtreeBuilder<Real>::QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2& worldSize)
+QuadtreeBuilder<Real>::QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2& worldSize,
+                                       const ThreadTeam& team)
     : maxDepth_(maxDepth),
       maxPerCell_(static_cast<std::size_t>(maxPerCell)),
       worldSize_(worldSize),
       grid_(-worldSize / 2, worldSize / double(1 << (maxDepth & 15)), 1u << (maxDepth & 15),
-            1u << (maxDepth & 15)) {
+            1u << (maxDepth & 15)),
+      team_(team),
+      pieces_(team.size()) {
     if (maxDepth < 0 || maxDepth > 15) throw Error("quadtree: the depth must be from 0 to 15");
     if (maxPerCell < 1) throw Error("quadtree: a cell must be allowed at least one body");
 }
 
 template <class Real>
 void QuadtreeBuilder<Real>::build(const BodyView<Real>& bodies, Partition<Real>& partition) {
-    grid_.ranges(bodies, partition.margin, partition.ranges);
+    grid_.ranges(bodies, partition.margin, partition.ranges, team_);
     const std::size_t count = partition.ranges.size();
-    if (count > rootCapacity_) {
-        root_ = std::make_unique_for_overwrite<Reference[]>(count);
-        rootCapacity_ = count;
+    TreeReference* const references = root_.reserve(count);
+    team_.shares(count, worthwhile::streamed, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            references[i] = {partition.ranges[i], static_cast<std::uint32_t>(i)};
+        }
+    });
+    const TreeNode root{references, count, 0, 0, maxDepth_};
+    Cells& cells = partition.cells;
+    const unsigned workers = team_.workersFor(count, worthwhile::built);
+    if (workers == 1) {
+        SubtreeBuilder& builder = pieces_.front().builder;
+        builder.start(cells, maxPerCell_);
+        builder.add(root);
+        builder.finish();
+    } else {
+        const std::size_t enough = count / (nodesPerWorker * workers);
+        buildPieces(splitter_.split(root, maxPerCell_, enough, team_));
+        join(cells);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        root_[i] = {partition.ranges[i], static_cast<std::uint32_t>(i)};
-    }
-    cells_ = &partition.cells;
-    cells_->origin = -worldSize_ / 2;
-    cells_->fineCell = worldSize_ / double(1 << maxDepth_);
-    cells_->offsets.assign(1, 0);
-    cells_->coordinates.clear();
-    entries_ = 0;
-    split(root_.get(), count, 0, 0, maxDepth_);
-    cells_->bodies.resize(entries_);
+    cells.origin = -worldSize_ / 2;
+    cells.fineCell = worldSize_ / double(1 << maxDepth_);
     ++partition.generation;
 }
 
 template <class Real>
-void QuadtreeBuilder<Real>::split(const Reference* references, std::size_t count, std::uint32_t x,
-                                  std::uint32_t y, int shift) {
-    if (count <= maxPerCell_ || shift == 0) {
-        emit(references, count, x, y, shift);
-        return;
-    }
-    Level& level = levels_[static_cast<std::size_t>(shift)];
-    if (count > level.capacity) {
-        level.capacity = std::max(count, level.capacity + level.capacity / 2);
-        level.children = std::make_unique_for_overwrite<Reference[]>(4 * level.capacity);
-    }
-    const std::uint32_t half = 1u << (shift - 1);
-    const std::uint32_t middleX = x + half;
-    const std::uint32_t middleY = y + half;
-    std::array<Reference*, 4> child;
-    for (std::size_t k = 0; k < 4; ++k) child[k] = level.children.get() + k * level.capacity;
-    // Every reference is written to all four lists and kept in those whose quadrant it touches:
-    // which ones is a coin toss that a branch would lose.
-    std::array<Reference*, 4> end = child;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Reference r = references[i];
-        const std::size_t left = r.range.x0 < middleX;
-        const std::size_t right = r.range.x1 >= middleX;
-        const std::size_t low = r.range.y0 < middleY;
-        const std::size_t high = r.range.y1 >= middleY;
-        *end[0] = r;
-        *end[1] = r;
-        *end[2] = r;
-        *end[3] = r;
-        end[0] += left & low;
-        end[1] += right & low;
-        end[2] += left & high;
-        end[3] += right & high;
-    }
-    std::array<std::size_t, 4> size;
-    for (std::size_t k = 0; k < 4; ++k) size[k] = static_cast<std::size_t>(end[k] - child[k]);
-    if (size[0] + size[1] + size[2] + size[3] == 4 * count) {
-        // A node that all its bodies cover gains nothing from any split.
-        const std::uint32_t lastX = x + 2 * half - 1;
-        const std::uint32_t lastY = y + 2 * half - 1;
-        const bool covered = std::all_of(references, references + count, [&](const Reference& r) {
-            return r.range.x0 <= x && r.range.x1 >= lastX && r.range.y0 <= y && r.range.y1 >= lastY;
-        });
-        if (covered) {
-            emit(references, count, x, y, shift);
-            return;
+void QuadtreeBuilder<Real>::buildPieces(std::span<const TreeNode> nodes) {
+    std::size_t total = 0;
+    for (const TreeNode& node : nodes) total += node.count;
+    const std::size_t workers = pieces_.size();
+    team_.run(team_.size(), [&](unsigned worker) {
+        Piece& piece = pieces_[worker];
+        piece.builder.start(piece.cells, maxPerCell_);
+        std::size_t before = 0;
+        for (const TreeNode& node : nodes) {
+            // A node goes to the worker in whose share of the references its first one lies; empty
+            // ones at the end have none, and go to the last.
+            const std::size_t owner = before * workers / std::max<std::size_t>(total, 1);
+            if (std::min(owner, workers - 1) == worker) piece.builder.add(node);
+            before += node.count;
         }
-    }
-    split(child[0], size[0], x, y, shift - 1);
-    split(child[1], size[1], middleX, y, shift - 1);
-    split(child[2], size[2], x, middleY, shift - 1);
-    split(child[3], size[3], middleX, middleY, shift - 1);
+        piece.builder.finish();
+    });
 }
 
 template <class Real>
-void QuadtreeBuilder<Real>::emit(const Reference* references, std::size_t count, std::uint32_t x,
-                                 std::uint32_t y, int shift) {
-    auto& bodies = cells_->bodies;
-    const std::size_t end = entries_ + count;
-    if (end > std::numeric_limits<std::uint32_t>::max()) {
+void QuadtreeBuilder<Real>::join(Cells& cells) {
+    std::size_t cellCount = 0;
+    std::size_t entries = 0;
+    for (Piece& piece : pieces_) {
+        piece.firstCell = cellCount;
+        piece.firstEntry = entries;
+        cellCount += piece.cells.size();
+        entries += piece.cells.bodies.size();
+    }
+    if (entries > std::numeric_limits<std::uint32_t>::max()) {
         throw Error("quadtree: its cells hold more entries than 32 bits can count");
     }
-    if (end > bodies.size()) bodies.resize(std::max(end, bodies.size() + bodies.size() / 2));
-    for (std::size_t i = 0; i < count; ++i) bodies[entries_ + i] = references[i].body;
-    entries_ = end;
-    cells_->offsets.push_back(static_cast<std::uint32_t>(end));
-    cells_->coordinates.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
-                                   static_cast<std::uint8_t>(shift)});
+    cells.offsets.resize(cellCount + 1);
+    cells.coordinates.resize(cellCount);
+    cells.bodies.resize(entries);
+    team_.run(team_.size(), [&](unsigned worker) {
+        const Piece& piece = pieces_[worker];
+        const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+        std::copy(piece.cells.bodies.begin(), piece.cells.bodies.end(),
+                  cells.bodies.begin() + at(piece.firstEntry));
+        std::copy(piece.cells.coordinates.begin(), piece.cells.coordinates.end(),
+                  cells.coordinates.begin() + at(piece.firstCell));
+        const auto shift = static_cast<std::uint32_t>(piece.firstEntry);
+        std::transform(piece.cells.offsets.begin(), piece.cells.offsets.end() - 1,
+                       cells.offsets.begin() + at(piece.firstCell),
+                       [shift](std::uint32_t offset) { return offset + shift; });
+    });
+    cells.offsets.back() = static_cast<std::uint32_t>(entries);
 }
 
 template <class Real>
 std::size_t QuadtreeBuilder<Real>::bytes() const {
-    std::size_t references = rootCapacity_;
-    for (const Level& level : levels_) references += 4 * level.capacity;
-    return references * sizeof(Reference);
+    std::size_t sum = root_.bytes() + splitter_.bytes();
+    for (const Piece& piece : pieces_) {
+        sum += piece.builder.bytes() + piece.cells.offsets.capacity() * sizeof(std::uint32_t) +
+               piece.cells.bodies.capacity() * sizeof(std::uint32_t) +
+               piece.cells.coordinates.capacity() * sizeof(CellCoordinates);
+    }
+    return sum;
 }
 
 template class QuadtreeBuilder<double>;

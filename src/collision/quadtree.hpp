@@ -1,19 +1,23 @@
 #pragma once
 
-#include <array>
-#include <memory>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "collision/partitioner.hpp"
+#include "collision/subtree_builder.hpp"
+#include "collision/tree_splitter.hpp"
 
 namespace quadrille {
 
 /// Builds the leaves of a quadtree, in Z order, top down. Bodies are quantised once to the cells of
-/// the deepest level, so every decision of the tree is a comparison of integers.
+/// the deepest level, so every decision of the tree is a comparison of integers. Large trees are
+/// split on all threads first; then every thread builds some of what lies below.
 template <class Real>
 class QuadtreeBuilder {
   public:
     /// Throws Error unless 0 <= maxDepth <= 15 and maxPerCell >= 1.
-    QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2& worldSize);
+    QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2& worldSize, const ThreadTeam& team);
 
     /// Replaces the partition's cells by the leaves for boxes inflated by partition.margin.
     void build(const BodyView<Real>& bodies, Partition<Real>& partition);
@@ -21,39 +25,33 @@ class QuadtreeBuilder {
     std::size_t bytes() const;
 
   private:
-    struct Reference {
-        FineRange range;
-        std::uint32_t body;
-    };
-    /// Memory that is not cleared: a level's four child lists lie `capacity` apart and are mostly
-    /// shorter, so that most of the pages are never touched.
-    struct Level {
-        std::unique_ptr<Reference[]> children;
-        std::size_t capacity = 0;  ///< of one child list
+    /// Neighbouring leaves that one thread builds.
+    struct alignas(64) Piece {
+        SubtreeBuilder builder;
+        Cells cells;
+        std::size_t firstCell = 0, firstEntry = 0;  // in the whole
     };
 
-    void split(const Reference* references, std::size_t count, std::uint32_t x, std::uint32_t y,
-               int shift);
-    void emit(const Reference* references, std::size_t count, std::uint32_t x, std::uint32_t y,
-              int shift);
+    void buildPieces(std::span<const TreeNode> nodes);
+    void join(Cells& cells);
 
     int maxDepth_;
     std::size_t maxPerCell_;
     Vec2 worldSize_;
     FineGrid<Real> grid_;
-    std::unique_ptr<Reference[]> root_;
-    std::size_t rootCapacity_ = 0;
-    std::array<Level, 16> levels_;
-    Cells* cells_ = nullptr;   // being built
-    std::size_t entries_ = 0;  // in cells_->bodies
+    const ThreadTeam& team_;
+    ReferenceBuffer root_;
+    TreeSplitter splitter_;
+    std::vector<Piece> pieces_;  // one a worker; a single one writes to the partition itself
 };
 
 /// A quadtree that is built anew each step.
 template <class Real>
 class QuadtreePartitioner final : public Partitioner<Real> {
   public:
-    QuadtreePartitioner(const Quadtree& config, const Vec2& worldSize)
-        : builder_(config.maxDepth, config.maxPerCell, worldSize) {}
+    QuadtreePartitioner(const Quadtree& config, const Vec2& worldSize,
+                        const ThreadTeam& team = ThreadTeam::serial())
+        : builder_(config.maxDepth, config.maxPerCell, worldSize, team) {}
 
     bool update(const BodyView<Real>& bodies, Real, Real reach) override {
         this->partition_.margin = reach;

@@ -7,6 +7,7 @@
 #include "collision/cuda_resolver.hpp"
 #include "collision/sequential_baseline.hpp"
 #include "collision/sequential_impulse.hpp"
+#include "collision/threads_impulse.hpp"
 
 namespace quadrille {
 
@@ -37,24 +38,29 @@ std::string_view name(ResolverKind resolver) {
 }
 
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config) {
-    if (config.resolver == ResolverKind::Cuda) return makeCudaResolver<Real>(config);
-    if (config.resolver != ResolverKind::Sequential) {
-        throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
-                           "' is not available yet");
-    }
-    switch (config.law) {
-        case Law::Baseline:
-            return std::make_unique<SequentialBaseline<Real>>();
-        case Law::Impulse:
-            return std::make_unique<SequentialImpulse<Real>>();
-        case Law::Continuous:
+std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config,
+                                             const ThreadTeam& team) {
+    switch (config.resolver) {
+        case ResolverKind::Sequential:
+            if (config.law == Law::Baseline) return std::make_unique<SequentialBaseline<Real>>();
+            if (config.law == Law::Impulse) return std::make_unique<SequentialImpulse<Real>>();
             break;
+        case ResolverKind::Threads:
+            if (config.law == Law::Impulse) return std::make_unique<ThreadsImpulse<Real>>(team);
+            break;
+        case ResolverKind::Cuda:
+            if (config.law != Law::Continuous) return makeCudaResolver<Real>(config);
+            break;
+        case ResolverKind::CudaResident:
+            throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
+                               "' is not available yet");
     }
-    throw NotAvailable("the law '" + std::string(name(config.law)) + "' is not available yet");
+    throw NotAvailable("the law '" + std::string(name(config.law)) +
+                       "' does not run on the resolver '" + std::string(name(config.resolver)) +
+                       "'");
 }
 
-template std::unique_ptr<Resolver<double>> makeResolver(const SimulationConfig&);
-template std::unique_ptr<Resolver<float>> makeResolver(const SimulationConfig&);
+template std::unique_ptr<Resolver<double>> makeResolver(const SimulationConfig&, const ThreadTeam&);
+template std::unique_ptr<Resolver<float>> makeResolver(const SimulationConfig&, const ThreadTeam&);
 
 }  // namespace quadrille

@@ -9,6 +9,7 @@
 
 #include "collision/partitioner.hpp"
 #include "collision/step_parameters.hpp"
+#include "collision/thread_team.hpp"
 
 namespace quadrille {
 
@@ -53,9 +54,10 @@ class Resolver {
     virtual std::size_t bytes() const = 0;
 };
 
-/// The resolver of a discrete law. Throws NotAvailable if this version has none of that kind, and
-/// DeviceError if it needs a device that is not there.
+/// The resolver of a discrete law; `team` must outlive it. Throws NotAvailable if this version has
+/// none of that kind, and DeviceError if it needs a device that is not there.
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config);
+std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config,
+                                             const ThreadTeam& team);
 
 }  // namespace quadrille

@@ -11,7 +11,8 @@ namespace quadrille {
 template <class Real>
 class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
   public:
-    SemiStaticQuadtreePartitioner(const SemiStaticQuadtree& config, const Vec2& worldSize);
+    SemiStaticQuadtreePartitioner(const SemiStaticQuadtree& config, const Vec2& worldSize,
+                                  const ThreadTeam& team);
 
     bool update(const BodyView<Real>& bodies, Real dt, Real reach) override;
 
@@ -24,6 +25,7 @@ class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
     Real chooseMargin(const BodyView<Real>& bodies, Real dt, Real reach) const;
 
     SemiStaticQuadtree config_;
+    const ThreadTeam& team_;
     QuadtreeBuilder<Real> builder_;
     std::vector<Real> builtX_, builtY_;  // positions at the last build
     std::uint64_t builtRevision_ = 0;

@@ -21,8 +21,8 @@ ResolveCounts SequentialImpulse<Real>::resolve(const BodyView<Real>& view,
     sort_(contacts_, step.dt);
     if (!partition.complete) {
         // Cells that are out of date may share a pair more than once.
-        const auto same = [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b; };
-        contacts_.erase(std::unique(contacts_.begin(), contacts_.end(), same), contacts_.end());
+        contacts_.erase(std::unique(contacts_.begin(), contacts_.end(), samePair<Real>),
+                        contacts_.end());
     }
 
     ResolveCounts counts{.contacts = contacts_.size(), .pairsTested = tested};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -20,11 +21,18 @@ std::string_view name(Precision precision) {
 
 namespace {
 
+/// More than any machine has cores; fewer than what makes an operating system give up.
+constexpr int mostThreads = 1024;
+
 void validate(const SimulationConfig& config) {
     if (!std::isfinite(config.dt) || !(config.dt > 0)) {
         throw Error("simulation: dt must be finite and positive");
     }
     if (!config.gravity.allFinite()) throw Error("simulation: gravity must be finite");
+    if (config.threads < 0 || config.threads > mostThreads) {
+        throw Error("simulation: the number of threads must be from 1 to " +
+                    std::to_string(mostThreads) + ", or 0 for one on each core");
+    }
     if (config.precision == Precision::Float) {
         const auto dt = static_cast<float>(config.dt);
         if (!std::isfinite(dt) || !(dt > 0)) {
@@ -41,6 +49,7 @@ void validate(const SimulationConfig& config) {
     if (!(config.restitution >= 0 && config.restitution <= 1)) {
         throw Error("simulation: restitution must be from 0 to 1");
     }
+    if (config.missedPairsEvery == 0) throw Error("simulation: missedPairsEvery must be positive");
 }
 
 using AnyStepper = std::variant<Stepper<double>, Stepper<float>>;
@@ -151,9 +160,10 @@ void Simulation::Impl::notify() {
     }
     for (std::size_t i = 0; i < observers.size(); ++i) observers[i](world, report);
     world.flush();
+    report.observeSeconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (config.profile) {
-        report.phaseSeconds[static_cast<std::size_t>(Phase::Observe)] =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+        report.phaseSeconds[static_cast<std::size_t>(Phase::Observe)] = report.observeSeconds;
     }
 }
 
@@ -193,6 +203,12 @@ void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
 const Cells& Simulation::cells() const {
     return std::visit([](const auto& s) -> const Cells& { return s.cells(); }, impl_->stepper);
 }
+
+int Simulation::threads() const {
+    return static_cast<int>(std::visit([](const auto& s) { return s.threads(); }, impl_->stepper));
+}
+
+int Simulation::cores() { return std::min(mostThreads, static_cast<int>(ThreadTeam::cores())); }
 
 ModelFeatures Simulation::features() const {
     const Impl& s = *impl_;

@@ -15,7 +15,7 @@ namespace quadrille {
 namespace {
 
 constexpr std::string_view magic = "QUADRILLE SNAPSHOT\n";
-constexpr std::uint32_t formatVersion = 1;
+constexpr std::uint32_t formatVersion = 2;
 constexpr std::uint32_t byteOrderMark = 0x01020304;
 
 void write(SnapshotWriter& out, const Vec2& v) {
@@ -108,8 +108,8 @@ class SnapshotAccess {
                 out.numbers(m.entity);
                 out.number<std::uint8_t>(m.anchors.enabled);
                 if (m.anchors.enabled) {
-                    for (const auto* column : {&m.anchors.x, &m.anchors.y}) out.numbers(*column);
-                    for (const auto* c : {&m.anchors.timeX, &m.anchors.timeY}) writeColumn(out, *c);
+                    out.numbers(m.anchors.rows);
+                    writeColumn(out, m.anchors.rests);
                 }
                 for (const auto* c : {&m.halfWidth, &m.halfHeight, &m.mass}) writeColumn(out, *c);
                 for (const auto* c : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) out.numbers(*c);
@@ -165,13 +165,11 @@ class SnapshotAccess {
         m.entity = in.numbers<std::uint32_t>();
         m.anchors.enabled = in.number<std::uint8_t>() != 0;
         if (m.anchors.enabled) {
-            for (auto* column : {&m.anchors.x, &m.anchors.y}) {
-                *column = in.numbers<Real>();
-                if (column->size() != m.x.size()) in.fail("has columns of different lengths");
-            }
-            for (auto* c : {&m.anchors.timeX, &m.anchors.timeY}) readColumn(in, *c, m.x.size());
+            m.anchors.rows = in.numbers<Anchor<Real>>();
+            if (m.anchors.rows.size() != m.x.size()) in.fail("has columns of different lengths");
+            readColumn(in, m.anchors.rests, m.x.size());
             // Which rows were waiting for an anchor is not recorded: look at all.
-            m.anchors.missing = m.x.size();
+            m.anchors.incomplete = true;
         }
         for (auto* c : {&m.halfWidth, &m.halfHeight, &m.mass}) readColumn(in, *c, m.x.size());
         for (auto* column : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) {

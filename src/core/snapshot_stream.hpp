@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <quadrille/bodies.hpp>
 #include <quadrille/error.hpp>
 
 namespace quadrille {
@@ -29,6 +30,11 @@ class Checksum {
 template <class T>
 concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+/// Numbers side by side, without gaps whose bytes nobody sets.
+template <class T>
+concept PlainRow =
+    PlainNumber<T> || std::same_as<T, Anchor<double>> || std::same_as<T, Anchor<float>>;
+
 /// Writes numbers in the machine's byte order, which the snapshot's header names. The data go to a
 /// file beside the target, which takes the target's name when it is complete.
 class SnapshotWriter {
@@ -43,7 +49,7 @@ class SnapshotWriter {
     void number(T value) {
         write(&value, sizeof value);
     }
-    template <PlainNumber T>
+    template <PlainRow T>
     void numbers(const std::vector<T>& values) {
         number<std::uint64_t>(values.size());
         write(values.data(), values.size() * sizeof(T));
@@ -73,7 +79,7 @@ class SnapshotReader {
         read(&value, sizeof value);
         return value;
     }
-    template <PlainNumber T>
+    template <PlainRow T>
     std::vector<T> numbers() {
         const auto size = number<std::uint64_t>();
         if (size > left() / sizeof(T)) fail("ends too early");

@@ -13,6 +13,14 @@ namespace quadrille {
 
 namespace {
 
+/// `cuda` leaves the partition to the host, which is most of its step.
+unsigned threadsOf(const SimulationConfig& config) {
+    const bool shared =
+        config.resolver == ResolverKind::Threads || config.resolver == ResolverKind::Cuda;
+    if (!shared) return 1;
+    return static_cast<unsigned>(config.threads > 0 ? config.threads : Simulation::cores());
+}
+
 template <class Real>
 void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, Real dt) {
     Real* const p = position.data();
@@ -26,16 +34,20 @@ void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, R
 
 /// Stops a run before a NaN spreads.
 template <class Real>
-void requireFinite(const BodyView<Real>& bodies) {
+void requireFinite(const BodyView<Real>& bodies, const ThreadTeam& team) {
     const auto& m = bodies.moving;
     const Real* const x = m.x.data();
     const Real* const y = m.y.data();
     constexpr Real largest = std::numeric_limits<Real>::max();
-    int bad = 0;
-    for (std::size_t i = 0; i < m.size(); ++i) {
-        bad |= !(std::abs(x[i]) <= largest) | !(std::abs(y[i]) <= largest);
-    }
-    if (bad == 0) return;
+    const bool anyBad =
+        team.any(m.size(), worthwhile::streamed, [&](std::size_t begin, std::size_t end) {
+            int bad = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                bad |= !(std::abs(x[i]) <= largest) | !(std::abs(y[i]) <= largest);
+            }
+            return bad != 0;
+        });
+    if (!anyBad) return;
     for (std::size_t i = 0; i < m.size(); ++i) {
         if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
             throw Error("entity " + std::to_string(m.entity[i]) +
@@ -47,35 +59,29 @@ void requireFinite(const BodyView<Real>& bodies) {
 }  // namespace
 
 template <class Real>
-Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize)
+Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize, bool eager)
     : parameters_{0, static_cast<Real>(config.dt), static_cast<Real>(config.gravity.x()),
                   static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)},
+      team_(std::make_unique<ThreadTeam>(threadsOf(config), eager)),
       times_(config.dt) {
     setPartitioner(config, worldSize);
     if (config.countMissedPairs) {
-        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(worldSize);
+        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
     }
 }
 
 template <class Real>
 void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& worldSize) {
     // The resolver remembers pairs of the partition that it saw last, so both are replaced.
-    auto partitioner = makePartitioner<Real>(config.partitioner, worldSize);
+    auto partitioner = makePartitioner<Real>(config.partitioner, worldSize, *team_);
     if (config.law == Law::Continuous) {
         if (!partitioner->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
-        if (config.resolver != ResolverKind::Sequential) {
-            throw NotAvailable("the law 'continuous' runs on the resolver 'sequential'");
-        }
-        if (config.gravity != Vec2(0, 0) || config.restitution != 1) {
-            throw NotAvailable(
-                "the law 'continuous' knows no gravity and no restitution below 1 yet");
-        }
-        continuous_ = std::make_unique<SequentialContinuous<Real>>();
+        continuous_ = makeContinuousLaw<Real>(config);
     } else {
         try {
-            resolver_ = makeResolver<Real>(config);
+            resolver_ = makeResolver<Real>(config, *team_);
         } catch (const DeviceError& failure) {
             if (!config.fallback) throw;
             useSequential(config, failure);
@@ -89,7 +95,7 @@ void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& w
 template <class Real>
 void Stepper<Real>::useSequential(SimulationConfig config, const DeviceError& failure) {
     config.resolver = ResolverKind::Sequential;
-    resolver_ = makeResolver<Real>(config);
+    resolver_ = makeResolver<Real>(config, *team_);
     resolverFailure_ = failure.what();
 }
 
@@ -105,7 +111,7 @@ decltype(auto) Stepper<Real>::onResolver(const BodyView<Real>& bodies, StepRepor
     }
     if (partitioner_->partition().complete) {
         // Candidate pairs can be collected only when the cells are made, so they are made anew.
-        partitioner_ = makePartitioner<Real>(config_.partitioner, worldSize_);
+        partitioner_ = makePartitioner<Real>(config_.partitioner, worldSize_, *team_);
         updatePartition(bodies, Real(0), report);
     }
     return function(*resolver_);
@@ -113,15 +119,21 @@ decltype(auto) Stepper<Real>::onResolver(const BodyView<Real>& bodies, StepRepor
 
 template <class Real>
 void Stepper<Real>::integrate(const BodyView<Real>& bodies) const {
-    advance(bodies.moving.x, bodies.moving.vx, parameters_.gravityX, parameters_.dt);
-    advance(bodies.moving.y, bodies.moving.vy, parameters_.gravityY, parameters_.dt);
+    const auto& m = bodies.moving;
+    team_->shares(m.size(), worthwhile::streamed, [&](std::size_t b, std::size_t e, unsigned) {
+        const std::size_t n = e - b;
+        advance(m.x.subspan(b, n), m.vx.subspan(b, n), parameters_.gravityX, parameters_.dt);
+        advance(m.y.subspan(b, n), m.vy.subspan(b, n), parameters_.gravityY, parameters_.dt);
+    });
 }
 
 template <class Real>
-void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, StepReport& report) {
+void Stepper<Real>::countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    report.missedPairs = missedPairs_->count(bodies, partitioner_->partition());
-    report.auditSeconds =
+    const PairAudit audit = missedPairs_->count(bodies, partitioner_->partition(), reach);
+    report.overlappingPairs += audit.overlapping;
+    report.missedPairs += audit.missed;
+    report.auditSeconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -131,7 +143,7 @@ void Stepper<Real>::updatePartition(const BodyView<Real>& bodies, Real reach, St
     report.rebuilt = report.rebuilt || rebuilt;
     // A skin notices a NaN as a body that left its box, so checking at builds sees every one; a
     // tree that is kept for so many steps, whatever happens, notices nothing.
-    if (rebuilt || !partitioner_->partition().complete) requireFinite(bodies);
+    if (rebuilt || !partitioner_->partition().complete) requireFinite(bodies, *team_);
 }
 
 template <class Real>
@@ -139,6 +151,7 @@ void Stepper<Real>::step(World& world, std::uint64_t number, std::vector<Contact
                          StepReport& report, bool profile) {
     const BodyView<Real> bodies = world.bodies<Real>();
     PhaseClock clock(report, profile);
+    report.audited = missedPairs_ && missedPairs_->picks(number);
     const ResolveCounts counts = continuous_
                                      ? stepContinuous(bodies, number, records, report, clock)
                                      : stepDiscrete(bodies, number, records, report, clock);
@@ -158,8 +171,8 @@ ResolveCounts Stepper<Real>::stepDiscrete(const BodyView<Real>& bodies, std::uin
                [&](Resolver<Real>& r) { r.integrated(bodies, parameters_, clock); });
     updatePartition(bodies, Real(0), report);
     clock.finish(Phase::Partition);
-    if (missedPairs_) {
-        countMissedPairs(bodies, report);
+    if (report.audited) {
+        countMissedPairs(bodies, Real(0), report);
         clock.restart();
     }
     const ResolveCounts counts = onResolver(bodies, report, [&](Resolver<Real>& r) {
@@ -182,10 +195,14 @@ ResolveCounts Stepper<Real>::stepContinuous(const BodyView<Real>& bodies, std::u
         const Real reach = continuous_->reach(bodies, now, end);
         updatePartition(bodies, reach, report);
         clock.finish(Phase::Partition);
+        if (report.audited) {
+            countMissedPairs(bodies, reach, report);
+            clock.restart();
+        }
         now = continuous_->advance(bodies, partitioner_->partition(), reach, now, end, records,
                                    counts);
         clock.finish(Phase::Resolve);
-        continuous_->place(bodies, now);
+        if (!continuous_->place(bodies, now)) requireFinite(bodies, *team_);
         clock.finish(Phase::Integrate);
     }
     return counts;

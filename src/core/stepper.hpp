@@ -12,6 +12,7 @@
 #include "collision/partitioner.hpp"
 #include "collision/resolver.hpp"
 #include "collision/sequential_continuous.hpp"
+#include "collision/thread_team.hpp"
 #include "core/phase_clock.hpp"
 #include "core/step_times.hpp"
 
@@ -21,7 +22,8 @@ namespace quadrille {
 template <class Real>
 class Stepper {
   public:
-    Stepper(const SimulationConfig& config, const Vec2& worldSize);
+    /// `eager` shares out even the shortest loops, for tests of that.
+    Stepper(const SimulationConfig& config, const Vec2& worldSize, bool eager = false);
 
     void setPartitioner(const SimulationConfig& config, const Vec2& worldSize);
 
@@ -32,6 +34,8 @@ class Stepper {
 
     /// Why the resolver that was asked for was replaced by the sequential one; empty if it was not.
     const std::string& resolverFailure() const { return resolverFailure_; }
+    /// That share out the loops of a step.
+    unsigned threads() const { return team_->size(); }
 
     const Cells& cells() const { return partitioner_->partition().cells; }
     std::size_t bytes() const {
@@ -55,13 +59,16 @@ class Stepper {
                               Function&& function);
     void useSequential(SimulationConfig config, const DeviceError& failure);
 
-    void countMissedPairs(const BodyView<Real>& bodies, StepReport& report);
+    /// Adds to the report what the partition does not show of the pairs that overlap, or would
+    /// after moving up to `reach`.
+    void countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report);
 
     StepParameters<Real> parameters_;
+    std::unique_ptr<ThreadTeam> team_;  // used by what follows, at an address that stays
     std::unique_ptr<MissedPairCounter<Real>> missedPairs_;  // null unless asked for
     std::unique_ptr<Partitioner<Real>> partitioner_;
-    std::unique_ptr<Resolver<Real>> resolver_;                // of a discrete law, or
-    std::unique_ptr<SequentialContinuous<Real>> continuous_;  // of the continuous one
+    std::unique_ptr<Resolver<Real>> resolver_;         // of a discrete law, or
+    std::unique_ptr<ContinuousLaw<Real>> continuous_;  // the continuous one
     StepTimes times_;
     SimulationConfig config_;
     Vec2 worldSize_{0, 0};

@@ -174,32 +174,42 @@ template BodyView<float> World::bodies<float>();
 
 void World::setPrecision(Precision precision) {
     if (precision == this->precision()) return;
-    auto convert = []<class To>(const auto& from, Columns<To>& to) {
-        auto copy = [](const auto& source, std::vector<To>& target, const char* what,
-                       bool positive = false) {
+    auto convert = [&]<class To>(const auto& from, Columns<To>& to) {
+        auto convertRow = [&](const auto& source, std::size_t row,
+                              const std::vector<std::uint32_t>& entity, const char* what,
+                              bool positive) {
+            const auto value = static_cast<double>(source[row]);
+            requireFits(entityAt(entity[row]), what, value, precision, positive);
+            return static_cast<To>(value);
+        };
+        auto copy = [&](const auto& source, const auto& entity, std::vector<To>& target,
+                        const char* what, bool positive = false) {
             target.reserve(source.size());
             for (std::size_t i = 0; i < source.size(); ++i) {
-                target.push_back(toReal<To>(static_cast<double>(source[i]), what, positive));
+                target.push_back(convertRow(source, i, entity, what, positive));
             }
         };
-        auto copyColumn = [](const auto& source, Column<To>& target, const char* what) {
+        auto copyColumn = [&](const auto& source, const auto& entity, Column<To>& target,
+                              const char* what) {
             for (std::size_t i = 0; i < source.size(); ++i) {
-                target.push_back(toReal<To>(static_cast<double>(source[i]), what, true));
+                target.push_back(convertRow(source, i, entity, what, true));
             }
         };
-        copy(from.moving.x, to.moving.x, "position");
-        copy(from.moving.y, to.moving.y, "position");
-        copy(from.moving.vx, to.moving.vx, "velocity");
-        copy(from.moving.vy, to.moving.vy, "velocity");
-        copyColumn(from.moving.halfWidth, to.moving.halfWidth, "size");
-        copyColumn(from.moving.halfHeight, to.moving.halfHeight, "size");
-        copyColumn(from.moving.mass, to.moving.mass, "mass");
-        to.moving.entity = from.moving.entity;
-        copy(from.fixed.x, to.fixed.x, "position");
-        copy(from.fixed.y, to.fixed.y, "position");
-        copy(from.fixed.halfWidth, to.fixed.halfWidth, "size", true);
-        copy(from.fixed.halfHeight, to.fixed.halfHeight, "size", true);
-        to.fixed.entity = from.fixed.entity;
+        const auto& moving = from.moving.entity;
+        const auto& fixed = from.fixed.entity;
+        copy(from.moving.x, moving, to.moving.x, "position");
+        copy(from.moving.y, moving, to.moving.y, "position");
+        copy(from.moving.vx, moving, to.moving.vx, "velocity");
+        copy(from.moving.vy, moving, to.moving.vy, "velocity");
+        copyColumn(from.moving.halfWidth, moving, to.moving.halfWidth, "size");
+        copyColumn(from.moving.halfHeight, moving, to.moving.halfHeight, "size");
+        copyColumn(from.moving.mass, moving, to.moving.mass, "mass");
+        to.moving.entity = moving;
+        copy(from.fixed.x, fixed, to.fixed.x, "position");
+        copy(from.fixed.y, fixed, to.fixed.y, "position");
+        copy(from.fixed.halfWidth, fixed, to.fixed.halfWidth, "size", true);
+        copy(from.fixed.halfHeight, fixed, to.fixed.halfHeight, "size", true);
+        to.fixed.entity = fixed;
     };
     if (precision == Precision::Float) {
         Columns<float> converted;

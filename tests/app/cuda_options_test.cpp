@@ -40,6 +40,21 @@ TEST(CudaOptions, TheReasonForAFallbackIsTold) {
     EXPECT_TRUE(contains(result.err, device.reason)) << result.err;
 }
 
+TEST(Cuda, AutoTakesADeviceForManyBodiesOnly) {
+    const CudaDevice device = findCudaDevice();
+    if (!device.usable()) GTEST_SKIP() << device.reason;
+    const auto resolverOf = [](const char* entities, const char* law) {
+        const ProcessResult result =
+            runProgram({"--headless", "--scene", "balanced", "--entities", entities, "--law", law,
+                        "--frames", "3", "--json", "-"});
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return Json::parse(result.out)["resolver"].get<std::string>();
+    };
+    EXPECT_EQ(resolverOf("1000", "impulse"), "sequential");
+    EXPECT_EQ(resolverOf("100000", "impulse"), "cuda");
+    EXPECT_EQ(resolverOf("30000", "continuous"), "sequential");
+}
+
 TEST(CudaOptions, TheLawContinuousRunsSequentially) {
     const Arguments wanted = shortRun + Arguments{"--resolver", "cuda", "--law", "continuous"};
     const ProcessResult result = runProgram(wanted + Arguments{"--json", "-"});

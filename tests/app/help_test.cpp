@@ -54,9 +54,9 @@ TEST(List, NamesScenesAndChoices) {
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.err, "");
     for (const char* name :
-         {"balanced", "balanced-scaled", "bullet", "cradle", "demo13k", "imbalanced", "mixed-sizes",
-          "pi", "pile", "brute-force", "static-grid", "quadtree", "semi-static-quadtree",
-          "sequential", "baseline", "impulse", "double", "float"}) {
+         {"balanced", "balanced-scaled", "bullet", "cradle", "demo13k", "imbalanced",
+          "imbalanced-clear", "mixed-sizes", "pi", "pile", "brute-force", "static-grid", "quadtree",
+          "semi-static-quadtree", "sequential", "baseline", "impulse", "double", "float"}) {
         EXPECT_TRUE(contains(result.out, name)) << name;
     }
 }

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include <quadrille/device.hpp>
+#include <quadrille/simulation.hpp>
+
 #include "program.hpp"
 
 namespace quadrille {
@@ -35,7 +38,7 @@ TEST_P(Fallback, IsNamedInEveryOutput) {
     EXPECT_EQ(summary["requested_resolver"], GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda", "cuda-resident", "threads"),
+INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda", "cuda-resident"),
                          [](const auto& test) { return identifier(test.param); });
 
 class NoDevice : public testing::TestWithParam<std::string> {};
@@ -64,6 +67,79 @@ TEST(Resolver, SequentialIsWhatRuns) {
     EXPECT_EQ(summary["requested_resolver"], "sequential");
     EXPECT_EQ(summary["threads"], 1);
     EXPECT_TRUE(summary["device"].is_null());
+}
+
+// ---- threads
+
+const Arguments pile = {"--headless", "--scene", "pile", "--frames", "30", "--json", "-"};
+
+Json summaryOf(const Arguments& arguments) {
+    const ProcessResult result = runProgram(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return Json::parse(result.out);
+}
+
+TEST(Threads, EndInTheStateOfTheSequentialResolver) {
+    const Json expected = summaryOf(pile + Arguments{"--resolver", "sequential"});
+    for (const int threads : {1, 2, 5}) {
+        const Json summary = summaryOf(
+            pile + Arguments{"--resolver", "threads", "--threads", std::to_string(threads)});
+        EXPECT_EQ(summary["resolver"], "threads");
+        EXPECT_EQ(summary["requested_resolver"], "threads");
+        EXPECT_EQ(summary["threads"], threads);
+        for (const char* key : {"state_hash", "contacts", "collisions", "pairs_tested"}) {
+            EXPECT_EQ(summary[key], expected[key]) << key << ", " << threads << " threads";
+        }
+    }
+}
+
+TEST(Threads, AreOneForEachCoreUnlessToldOtherwise) {
+    const Json summary = summaryOf(pile + Arguments{"--resolver", "threads"});
+    EXPECT_EQ(summary["threads"], Simulation::cores());
+}
+
+TEST(Threads, AreNamedInTheWords) {
+    const ProcessResult result = runProgram({"--headless", "--scene", "pile", "--frames", "3",
+                                             "--resolver", "threads", "--threads", "3"});
+    EXPECT_TRUE(contains(result.out, "resolver threads (3 threads)")) << result.out;
+}
+
+class OtherLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(OtherLaw, RunsOnTheSequentialResolverInstead) {
+    const Arguments run = {"--headless", "--scene",  "cradle",     "--frames", "5",
+                           "--law",      GetParam(), "--resolver", "threads"};
+    const ProcessResult result = runProgram(run + Arguments{"--json", "-"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_TRUE(contains(result.err, "warning")) << result.err;
+    EXPECT_TRUE(contains(result.err, "'" + GetParam() + "'")) << result.err;
+    const Json summary = Json::parse(result.out);
+    EXPECT_EQ(summary["resolver"], "sequential");
+    EXPECT_EQ(summary["requested_resolver"], "threads");
+    EXPECT_EQ(summary["threads"], 1);
+    expectRefusal(run + Arguments{"--no-fallback"}, 2, {"threads", GetParam()});
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, OtherLaw, testing::Values("baseline", "continuous"),
+                         [](const auto& test) { return identifier(test.param); });
+
+TEST(Threads, AutoTakesThemForManyBodiesOnly) {
+    if (findCudaDevice().usable()) GTEST_SKIP() << "there is a device, which comes first";
+    const auto resolverOf = [](const char* entities, const Arguments& more) {
+        return summaryOf(Arguments{"--headless", "--scene", "balanced", "--entities", entities,
+                                   "--frames", "3", "--json", "-"} +
+                         more);
+    };
+    const Arguments four = {"--threads", "4"};
+    EXPECT_EQ(resolverOf("1000", four)["resolver"], "sequential");
+    EXPECT_EQ(resolverOf("100000", {"--threads", "1"})["resolver"], "sequential");
+    EXPECT_EQ(resolverOf("100000", {"--threads", "4", "--law", "baseline"})["resolver"],
+              "sequential");
+    const Json many = resolverOf("100000", four);
+    EXPECT_EQ(many["resolver"], "threads");
+    EXPECT_EQ(many["requested_resolver"], "auto");
+    EXPECT_EQ(many["threads"], 4);
+    EXPECT_EQ(many["state_hash"], resolverOf("100000", {"--resolver", "sequential"})["state_hash"]);
 }
 
 }  // namespace

@@ -111,6 +111,20 @@ TEST_P(Allocation, NoneWithAListener) {
     EXPECT_EQ(allocationsOf(Quadtree{}, GetParam(), true), 0u);
 }
 
+TEST_P(Allocation, NoneWithThreads) {
+    // Enough bodies for loops to be shared out, and crowded, so that contacts are as well.
+    Scene scene = shippedScene("demo13k", 9000);
+    Simulation sim(std::move(scene.world), {.partitioner = Quadtree{},
+                                            .precision = GetParam(),
+                                            .resolver = ResolverKind::Threads,
+                                            .threads = 3,
+                                            .dt = scene.step.dt});
+    sim.run(400);
+    const std::uint64_t before = allocations;
+    sim.run(100);
+    EXPECT_EQ(allocations - before, 0u);
+}
+
 TEST_P(Allocation, NoneWithTheLawBaseline) {
     Scene scene = shippedScene("balanced", 2000);
     Simulation sim(std::move(scene.world), {.partitioner = Quadtree{},

@@ -1,5 +1,7 @@
 // The report's policy, rebuild every K frames without a skin, misses pairs, and they are counted.
 
+#include "collision/missed_pairs.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -108,7 +110,39 @@ TEST(MissedPairs, AreNotCountedUnlessAskedFor) {
     SimulationConfig config = counting(SemiStaticQuadtree{5, 1, EveryFrames{20}});
     config.countMissedPairs = false;
     Simulation sim(approaching(), config);
-    for (int i = 0; i < 20; ++i) EXPECT_EQ(sim.step().missedPairs, 0u);
+    for (int i = 0; i < 20; ++i) {
+        const StepReport report = sim.step();
+        EXPECT_EQ(report.missedPairs, 0u);
+        EXPECT_FALSE(report.audited);
+    }
+}
+
+TEST(MissedPairs, AreCountedInASampleOfTheSteps) {
+    SimulationConfig config = counting(SemiStaticQuadtree{5, 1, EveryFrames{10}});
+    config.missedPairsEvery = 10;
+    World world({.size = {64, 64}});
+    makeBox(world, {-8, 1}, moving(0.125));
+    makeBox(world, {-8, 1}, fixed());  // overlap throughout
+    Simulation sim(std::move(world), config);
+    std::set<std::uint64_t> phases;  // of the tree's age
+    int audited = 0;
+    for (std::uint64_t step = 1; step <= 1000; ++step) {
+        const StepReport report = sim.step();
+        EXPECT_TRUE(report.audited || step > 1) << "the first step is always one of them";
+        EXPECT_EQ(report.missedPairs, 0u);
+        audited += report.audited;
+        if (report.audited) phases.insert(step % 10);
+    }
+    // Binomial with mean 100 and deviation 9.5; the sample is the same in every run.
+    EXPECT_GT(audited, 60);
+    EXPECT_LT(audited, 140);
+    EXPECT_EQ(phases.size(), 10u);
+}
+
+TEST(MissedPairs, AreNotCountedInOneStepOfNone) {
+    SimulationConfig config = counting(Quadtree{});
+    config.missedPairsEvery = 0;
+    EXPECT_THROW(Simulation(approaching(), config), Error);
 }
 
 template <class Real>
@@ -141,6 +175,8 @@ TYPED_TEST(MissedPairsIn, RandomScenesAreCountedAsByHand) {
         Simulation sim(this->scene(seed),
                        counting(SemiStaticQuadtree{7, 3, EveryFrames{frames}}, precisionOf<Real>));
         run<Real>(sim, 40, [&](const Boxes<Real>& boxes, const StepReport& report) {
+            ASSERT_TRUE(report.audited);
+            ASSERT_EQ(report.overlappingPairs, overlappingPairs(boxes).size());
             ASSERT_EQ(report.missedPairs, unseen(boxes, sim.cells())) << "step " << report.step;
             ASSERT_EQ(report.contacts + report.missedPairs, overlappingPairs(boxes).size());
             total += report.missedPairs;
@@ -166,6 +202,58 @@ TYPED_TEST(MissedPairsIn, CompletePartitionsAreNone) {
                 ASSERT_EQ(report.contacts, overlappingPairs(boxes).size());
             });
         }
+    }
+}
+
+/// Bodies may move before the law `continuous` has the cells built again, so the pairs that count
+/// are those that come within reach.
+TYPED_TEST(MissedPairsIn, ThoseWithinReachAreCountedAsByHand) {
+    using Real = TypeParam;
+    const Real reach = 1.5;
+    std::uint64_t missed = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        World world = this->scene(seed);
+        const auto bodies = world.template bodies<Real>();
+        for (const bool covered : {false, true}) {
+            const auto partitioner = makePartitioner<Real>(Quadtree{7, 3}, world.config().size);
+            partitioner->update(bodies, Real(0), covered ? reach : Real(0));
+            Boxes<Real> inflated(bodies);
+            for (std::uint32_t i = 0; i < inflated.size(); ++i) {
+                inflated.halfWidth[i] += reach;
+                inflated.halfHeight[i] += reach;
+            }
+            const PairAudit audit =
+                MissedPairCounter<Real>(1).count(bodies, partitioner->partition(), reach);
+            EXPECT_EQ(audit.overlapping, overlappingPairs(inflated).size());
+            // A cell in common alone does not show a pair that the cells were not made for.
+            const std::uint64_t apart = unseen(inflated, partitioner->partition().cells);
+            EXPECT_GE(audit.missed, apart);
+            EXPECT_EQ(audit.missed > 0, apart > 0);
+            if (covered) {
+                EXPECT_EQ(audit.missed, 0u);
+            }
+            missed += audit.missed;
+        }
+    }
+    EXPECT_GT(missed, 100u);
+}
+
+TYPED_TEST(MissedPairsIn, TheLawContinuousMissesNone) {
+    using Real = TypeParam;
+    for (const PartitionerConfig& partitioner :
+         {PartitionerConfig(StaticGrid{{9, 14}}), PartitionerConfig(Quadtree{7, 3}),
+          PartitionerConfig(SemiStaticQuadtree{7, 3})}) {
+        SimulationConfig config = counting(partitioner, precisionOf<Real>);
+        config.law = Law::Continuous;
+        Simulation sim(this->scene(1), config);
+        std::uint64_t overlapping = 0;
+        for (int i = 0; i < 30; ++i) {
+            const StepReport report = sim.step();
+            ASSERT_EQ(report.missedPairs, 0u);
+            overlapping += report.overlappingPairs;
+        }
+        EXPECT_GT(overlapping, 100u);
     }
 }
 

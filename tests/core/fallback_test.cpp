@@ -5,6 +5,7 @@
 #include <quadrille/device.hpp>
 #include <quadrille/error.hpp>
 #include <quadrille/measure.hpp>
+#include <quadrille/scene.hpp>
 #include <quadrille/simulation.hpp>
 
 namespace quadrille {
@@ -44,6 +45,26 @@ TEST(MissingDevice, IsReplacedWhereThatIsAllowed) {
     sim.run(20);
     sequential.run(20);
     EXPECT_EQ(stateHash(sim.world()), stateHash(sequential.world()));
+}
+
+TEST(MissingDevice, LeavesThePartitionToTheThreads) {
+    if (findCudaDevice().usable()) GTEST_SKIP() << "there is a device";
+    const auto crowd = [] {
+        return loadScene(QUADRILLE_SCENES_DIR "/balanced.toml", {.entities = 20'000}).world;
+    };
+    for (const PartitionerConfig& partitioner :
+         {PartitionerConfig(Quadtree{}), PartitionerConfig(SemiStaticQuadtree{})}) {
+        Simulation sim(crowd(), {.partitioner = partitioner,
+                                 .resolver = ResolverKind::Cuda,
+                                 .threads = 3,
+                                 .fallback = true});
+        EXPECT_EQ(sim.threads(), 3);
+        Simulation sequential(crowd(), {.partitioner = partitioner});
+        EXPECT_EQ(sequential.threads(), 1);
+        sim.run(5);
+        sequential.run(5);
+        EXPECT_EQ(stateHash(sim.world()), stateHash(sequential.world()));
+    }
 }
 
 TEST(CudaOptions, BlockSizesThatCannotBeAreRefused) {

@@ -1,0 +1,243 @@
+#include "accuracy/error_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <quadrille/error.hpp>
+#include <quadrille/measure.hpp>
+
+#include "accuracy/virial.hpp"
+#include "reference/oracle.hpp"
+
+namespace quadrille::accuracy {
+
+namespace {
+
+using reference::Box;
+using reference::Oracle;
+
+/// Static bodies first: their order among themselves is all that the reference's ids need.
+std::vector<Box> boxesOf(const World& world) {
+    std::vector<Box> boxes;
+    world.visitBodies([&](const auto& bodies) {
+        const auto& m = bodies.moving;
+        const auto& f = bodies.fixed;
+        boxes.reserve(bodies.size());
+        for (std::size_t k = 0; k < f.size(); ++k) {
+            boxes.push_back({.position = Vec2(f.x[k], f.y[k]),
+                             .size = 2 * Vec2(f.halfWidth[k], f.halfHeight[k]),
+                             .isStatic = true});
+        }
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            boxes.push_back({.position = Vec2(m.x[i], m.y[i]),
+                             .velocity = Vec2(m.vx[i], m.vy[i]),
+                             .size = 2 * Vec2(m.halfWidth[i], m.halfHeight[i]),
+                             .mass = static_cast<double>(m.mass[i])});
+        }
+    });
+    return boxes;
+}
+
+/// Calls `action`; what the reference throws becomes an Error that says whose it is.
+template <class Action>
+auto inReference(Action&& action) {
+    try {
+        return action();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw Error(
+            std::string("reference: ") + error.what() +
+            " (bodies that overlap at the start can be wedged so that no motion frees them)");
+    } catch (const std::exception& error) {
+        throw Error(std::string("reference: ") + error.what());
+    }
+}
+
+std::vector<BodyState> statesOf(const World& world) {
+    std::vector<BodyState> states;
+    world.visitBodies([&](const auto& bodies) {
+        const auto& m = bodies.moving;
+        states.reserve(m.size());
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            states.push_back({Vec2(m.x[i], m.y[i]), Vec2(m.vx[i], m.vy[i])});
+        }
+    });
+    return states;
+}
+
+/// The mean side of the moving bodies, px; 1 if there are none.
+double meanSide(const std::vector<Box>& boxes) {
+    double sum = 0;
+    double count = 0;
+    for (const Box& box : boxes) {
+        if (box.isStatic) continue;
+        sum += (box.size.x() + box.size.y()) / 2;
+        ++count;
+    }
+    return count == 0 ? 1 : sum / count;
+}
+
+/// Overlaps of several states.
+struct OverlapSum {
+    double max = 0, sum = 0;  // px
+    std::size_t pairs = 0;
+
+    void add(const World& world) {
+        const Overlap now = overlap(world);
+        max = std::max(max, now.max);
+        sum += now.mean * double(now.pairs);
+        pairs += now.pairs;
+    }
+    double mean() const { return pairs == 0 ? 0 : sum / double(pairs); }
+};
+
+/// Energy in uniform gravity, and the kinetic part of it.
+struct Energy {
+    double total = 0, kinetic = 0;
+};
+
+}  // namespace
+
+struct ErrorMeter::Impl {
+    explicit Impl(Simulation& s)
+        : simulation(s),
+          boxes(boxesOf(s.world())),
+          oracle(inReference(
+              [&] { return Oracle(boxes, s.config().gravity, s.config().restitution); })),
+          begin(s.time()),
+          start(statesOf(s.world())),
+          length(meanSide(boxes)) {
+        const bool elastic = s.config().restitution == 1 && s.config().gravity == Vec2(0, 0);
+        exchanged = elastic && !s.features().massesDiffer;
+        if (elastic) balance.emplace(s.world());
+    }
+
+    void observe(const StepReport& report);
+    Energy energyOf(const std::vector<BodyState>& states) const;
+    std::vector<BodyState> exactStates() const;
+    double velocityTolerance(const std::vector<BodyState>& exact) const;
+
+    Simulation& simulation;
+    std::vector<Box> boxes;  // at the start, static ones first
+    Oracle oracle;
+    double begin;  // s, when the meter was made; time 0 of the reference
+    std::vector<BodyState> start;
+    double length;                         // px
+    bool exchanged = false;                // collisions exchange velocities and change nothing else
+    std::optional<VirialBalance> balance;  // where the identity holds
+    std::vector<Event> measured;           // times from `begin`
+    std::uint64_t auditedSteps = 0, overlappingPairs = 0, missedPairs = 0;
+    OverlapSum overlaps;         // of audited steps
+    bool overlapsKnown = false;  // of the present state
+};
+
+ErrorMeter::ErrorMeter(Simulation& simulation) : impl_(std::make_unique<Impl>(simulation)) {
+    simulation.onContact([impl = impl_.get()](const Contact& contact) {
+        if (!contact.collided) return;
+        impl->measured.push_back({contact.time - impl->begin, contact.rowA, contact.rowB,
+                                  static_cast<int>(contact.axis)});
+        if (impl->balance) impl->balance->collide(contact);
+    });
+    simulation.onStep(
+        [impl = impl_.get()](const World&, const StepReport& report) { impl->observe(report); });
+}
+
+ErrorMeter::~ErrorMeter() = default;
+
+void ErrorMeter::Impl::observe(const StepReport& report) {
+    const World& world = simulation.world();
+    if (balance) balance->finishStep(world, simulation.config().dt);
+    overlapsKnown = report.audited;
+    if (!report.audited) return;
+    ++auditedSteps;
+    overlappingPairs += report.overlappingPairs;
+    missedPairs += report.missedPairs;
+    overlaps.add(world);
+}
+
+void ErrorMeter::follow() {
+    inReference([&] { impl_->oracle.runUntil(impl_->simulation.time() - impl_->begin); });
+}
+
+std::vector<BodyState> ErrorMeter::Impl::exactStates() const {
+    std::vector<BodyState> states;
+    for (const Box& box : oracle.state()) {
+        if (!box.isStatic) states.push_back({box.position, box.velocity});
+    }
+    return states;
+}
+
+Energy ErrorMeter::Impl::energyOf(const std::vector<BodyState>& states) const {
+    Energy energy;
+    const std::size_t fixed = boxes.size() - states.size();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const double mass = boxes[fixed + i].mass;
+        const double kinetic = mass * states[i].velocity.squaredNorm() / 2;
+        energy.kinetic += kinetic;
+        energy.total += kinetic - mass * simulation.config().gravity.dot(states[i].position);
+    }
+    return energy;
+}
+
+/// None where velocities are only exchanged. Elsewhere every collision rounds, and half of the
+/// digits are left for that to add up: sqrt(epsilon) of the fastest component.
+double ErrorMeter::Impl::velocityTolerance(const std::vector<BodyState>& exact) const {
+    if (exchanged) return 0;
+    const double epsilon = simulation.config().precision == Precision::Double
+                               ? std::numeric_limits<double>::epsilon()
+                               : double(std::numeric_limits<float>::epsilon());
+    double fastest = 0;
+    for (const auto* states : {&start, &exact}) {
+        for (const BodyState& body : *states) {
+            fastest = std::max(fastest, body.velocity.cwiseAbs().maxCoeff());
+        }
+    }
+    return std::sqrt(epsilon) * fastest;
+}
+
+ErrorMetrics ErrorMeter::metrics() const {
+    const Impl& m = *impl_;
+    const std::vector<BodyState> measured = statesOf(m.simulation.world());
+    if (measured.size() != m.start.size()) {
+        throw Error("error meter: bodies were added or removed");
+    }
+    const std::vector<BodyState> exact = m.exactStates();
+    const double tolerance = m.velocityTolerance(exact);
+    OverlapSum overlaps = m.overlaps;
+    if (!m.overlapsKnown) overlaps.add(m.simulation.world());
+    ErrorMetrics result{
+        .horizon = m.oracle.time(),
+        .events = matchEvents(m.oracle.events(), m.measured, 2 * m.simulation.config().dt),
+        .bodies = exact.size(),
+        .wrongBodies = wrongBodies(exact, measured, tolerance),
+        .velocityTolerance = tolerance,
+        .positionError = positionErrors(exact, measured, m.length),
+        .length = m.length,
+        .escaped = escaped(m.simulation.world()),
+        .overlapMax = overlaps.max / m.length,
+        .overlapMean = overlaps.mean() / m.length,
+        .speedDrift = {},
+        .wallIdentity = {},
+        .auditedSteps = m.auditedSteps,
+        .overlappingPairs = m.overlappingPairs,
+        .missedPairs = m.missedPairs};
+    const Energy energyStart = m.energyOf(m.start);
+    const Energy energyExact = m.energyOf(exact);
+    const double excess = m.energyOf(measured).total - energyExact.total;
+    if (excess != 0) {
+        result.energyDrift = excess / std::max(energyStart.kinetic, energyExact.kinetic);
+    }
+    if (m.exchanged) result.speedDrift = speedDrift(m.start, measured);
+    if (m.balance) result.wallIdentity = m.balance->residual();
+    return result;
+}
+
+}  // namespace quadrille::accuracy

@@ -1,0 +1,145 @@
+#include "collision/thread_team.hpp"
+
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace quadrille {
+
+namespace {
+
+/// Keeps the first exception of several threads.
+class Failure {
+  public:
+    template <class Function>
+    void guard(Function&& function) noexcept {
+        try {
+            function();
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!first_) first_ = std::current_exception();
+        }
+    }
+    void rethrow() const {
+        if (first_) std::rethrow_exception(first_);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::exception_ptr first_;
+};
+
+/// How often a thread that waits looks again before it sleeps: about 50 us, which is longer than
+/// the pauses between the loops of a step.
+constexpr int patience = 150;
+
+/// Waits until `done()`; `word` changes when it may have become true.
+template <class Word, class Done>
+void waitUntil(const std::atomic<Word>& word, Done&& done) {
+    for (int i = 0; i < patience; ++i) {
+        if (done()) return;
+        std::this_thread::yield();
+    }
+    for (;;) {
+        const Word seen = word.load(std::memory_order_acquire);
+        if (done()) return;
+        word.wait(seen, std::memory_order_acquire);
+    }
+}
+
+}  // namespace
+
+/// What the caller, who is thread 0, shares with the other threads.
+///
+/// A thread takes its own part of a loop first, so that it finds in its cache what it left there,
+/// and then any that nobody has begun. The caller does the same, and waits for those parts only
+/// that others have begun: a thread that does not get a core holds nobody up.
+struct ThreadTeam::Shared {
+    struct alignas(64) Part {
+        std::atomic<bool> open{false};
+    };
+
+    explicit Shared(unsigned size) : parts(size) {
+        try {
+            for (unsigned i = 1; i < size; ++i) threads.emplace_back([this, i] { serve(i); });
+        } catch (...) {
+            finish();
+            throw;
+        }
+    }
+    ~Shared() { finish(); }
+
+    void finish() {
+        stop.store(true, std::memory_order_relaxed);
+        round.fetch_add(1, std::memory_order_release);
+        round.notify_all();
+        for (std::thread& thread : threads) thread.join();
+        threads.clear();
+    }
+
+    void serve(unsigned thread) {
+        std::uint32_t seen = 0;
+        while (!stop.load(std::memory_order_relaxed)) {
+            waitUntil(round, [&] { return round.load(std::memory_order_acquire) != seen; });
+            seen = round.load(std::memory_order_acquire);
+            takeParts(thread);
+        }
+    }
+
+    void takeParts(unsigned thread) {
+        const auto count = static_cast<unsigned>(parts.size());
+        for (unsigned i = 0; i < count; ++i) {
+            const unsigned part = (thread + i) % count;
+            // Reading first leaves the line where it is. A part that is open belongs to the loop
+            // that `call` and `context` describe, even if this thread woke up for an earlier one.
+            if (!parts[part].open.load(std::memory_order_relaxed)) continue;
+            if (!parts[part].open.exchange(false, std::memory_order_acq_rel)) continue;
+            failure->guard([&] { call(context, part); });
+            if (pending.fetch_sub(1, std::memory_order_acq_rel) == 1) pending.notify_one();
+        }
+    }
+
+    void run(void (*function)(const void*, unsigned), const void* argument) {
+        Failure first;
+        call = function;
+        context = argument;
+        failure = &first;
+        pending.store(static_cast<std::uint32_t>(parts.size()), std::memory_order_relaxed);
+        for (Part& part : parts) part.open.store(true, std::memory_order_release);
+        round.fetch_add(1, std::memory_order_release);
+        round.notify_all();
+        takeParts(0);
+        waitUntil(pending, [&] { return pending.load(std::memory_order_acquire) == 0; });
+        first.rethrow();
+    }
+
+    std::vector<Part> parts;
+    void (*call)(const void*, unsigned) = nullptr;
+    const void* context = nullptr;
+    Failure* failure = nullptr;
+    alignas(64) std::atomic<std::uint32_t> round{0};    ///< counts the loops
+    alignas(64) std::atomic<std::uint32_t> pending{0};  ///< parts that are not done
+    std::atomic<bool> stop{false};
+    std::vector<std::thread> threads;
+};
+
+ThreadTeam::ThreadTeam(unsigned threads, bool eager) : size_(std::max(1u, threads)), eager_(eager) {
+    if (size_ > 1) shared_ = std::make_unique<Shared>(size_);
+}
+
+ThreadTeam::~ThreadTeam() = default;
+
+void ThreadTeam::fork(void (*call)(const void*, unsigned), const void* context) const {
+    shared_->run(call, context);
+}
+
+const ThreadTeam& ThreadTeam::serial() {
+    static const ThreadTeam team;
+    return team;
+}
+
+unsigned ThreadTeam::cores() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+}  // namespace quadrille

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace quadrille {
+
+/// Threads that share out the loops of a step. docs/decisions.md tells why not by OpenMP.
+class ThreadTeam {
+  public:
+    /// `eager` makes loops parallel however short they are, so that small tests reach that code.
+    explicit ThreadTeam(unsigned threads = 1, bool eager = false);
+    ~ThreadTeam();
+    ThreadTeam(const ThreadTeam&) = delete;
+    ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+    /// One thread, the caller's.
+    static const ThreadTeam& serial();
+
+    /// Cores that this process may use, at least 1.
+    static unsigned cores();
+
+    unsigned size() const { return size_; }
+    bool eager() const { return eager_; }
+
+    /// The workers for a loop of `count` items that pays off from `least` items on: all or one.
+    unsigned workersFor(std::size_t count, std::size_t least) const {
+        return eager_ || count >= least ? size_ : 1;
+    }
+
+    /// Calls `function(worker)` once for every worker below `workers`, which is what workersFor
+    /// gave, at the same time if the machine permits; so none may wait for another. Returns when
+    /// all are done, and throws what one of them threw. `function` may not run loops of its own on
+    /// the team, and only one thread may use the team at a time.
+    template <class Function>
+    void run(unsigned workers, Function&& function) const {
+        if (workers <= 1) {
+            function(0u);
+            return;
+        }
+        using Plain = std::remove_reference_t<Function>;
+        fork([](const void* f,
+                unsigned worker) { (*const_cast<Plain*>(static_cast<const Plain*>(f)))(worker); },
+             std::addressof(function));
+    }
+
+    /// Calls `function(begin, end, worker)` for one contiguous share of 0..count a worker.
+    template <class Function>
+    void shares(std::size_t count, std::size_t least, Function&& function) const {
+        const unsigned workers = workersFor(count, least);
+        run(workers, [&](unsigned worker) {
+            function(count * worker / workers, count * (worker + 1) / workers, worker);
+        });
+    }
+
+    /// Calls `function(begin, end, worker)` for blocks of `block` items, each taken by the next
+    /// worker that is free; for items of unequal cost.
+    template <class Function>
+    void blocks(unsigned workers, std::size_t count, std::size_t block, Function&& function) const {
+        if (workers <= 1) {
+            if (count > 0) function(std::size_t(0), count, 0u);
+            return;
+        }
+        std::atomic<std::size_t> next{0};
+        run(workers, [&](unsigned worker) {
+            for (std::size_t begin; (begin = next.fetch_add(block)) < count;) {
+                function(begin, std::min(count, begin + block), worker);
+            }
+        });
+    }
+
+    /// Whether `function(begin, end)` holds for a part of 0..count.
+    template <class Function>
+    bool any(std::size_t count, std::size_t least, Function&& function) const {
+        std::atomic<bool> found{false};
+        shares(count, least, [&](std::size_t begin, std::size_t end, unsigned) {
+            if (function(begin, end)) found.store(true, std::memory_order_relaxed);
+        });
+        return found;
+    }
+
+    /// The largest `function(begin, end)` over parts of 0..count, at least 0.
+    template <class Real, class Function>
+    Real maximum(std::size_t count, std::size_t least, Function&& function) const {
+        std::atomic<Real> most{0};
+        shares(count, least, [&](std::size_t begin, std::size_t end, unsigned) {
+            const Real value = function(begin, end);
+            Real seen = most.load(std::memory_order_relaxed);
+            while (value > seen && !most.compare_exchange_weak(seen, value)) {
+            }
+        });
+        return most;
+    }
+
+    /// The sum of `function(begin, end)` over parts of 0..count. The parts do not depend on the
+    /// number of threads, so that the sum has the same bits for any.
+    template <class Function>
+    double sum(std::size_t count, std::size_t least, Function&& function) const {
+        constexpr std::size_t parts = 256;
+        std::array<double, parts> partial{};
+        const auto start = [&](std::size_t part) { return count * part / parts; };
+        blocks(workersFor(count, least), parts, 4, [&](std::size_t b, std::size_t e, unsigned) {
+            for (std::size_t p = b; p < e; ++p) partial[p] = function(start(p), start(p + 1));
+        });
+        double total = 0;
+        for (const double value : partial) total += value;
+        return total;
+    }
+
+  private:
+    struct Shared;
+
+    void fork(void (*call)(const void*, unsigned), const void* context) const;
+
+    unsigned size_;
+    bool eager_;
+    std::unique_ptr<Shared> shared_;  // null for one thread
+};
+
+/// From how many items on a loop is worth handing out: about 20 us of work for one thread, several
+/// times what it costs to start and end a parallel loop (docs/performance.md).
+namespace worthwhile {
+inline constexpr std::size_t streamed = 20'000;  ///< bodies that are read and written in passing
+inline constexpr std::size_t tested = 16'000;    ///< pairs whose boxes are compared
+inline constexpr std::size_t built = 8'000;      ///< bodies that cells are made for
+inline constexpr std::size_t walked = 1'500;     ///< bodies whose cells are walked through
+inline constexpr std::size_t resolved = 300;     ///< contacts
+}  // namespace worthwhile
+
+}  // namespace quadrille

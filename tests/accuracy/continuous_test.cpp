@@ -1,0 +1,70 @@
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "hard_cases/hard_case.hpp"
+
+// What the law `continuous` promises beyond the table of hard cases.
+
+namespace quadrille {
+namespace {
+
+using accuracy::Body;
+using accuracy::velocity;
+
+Simulation simulate(const std::vector<Body>& bodies, double dt = 1.0 / 60) {
+    return accuracy::simulate({Law::Continuous, Precision::Double}, bodies, {.dt = dt});
+}
+
+TEST(Continuous, BulletMeetsTheThinWallWhateverTheStep) {
+    for (const double dt : {1.0 / 60, 1.0 / 16, 1.0}) {
+        Simulation sim =
+            simulate({{{-50, 0}, {6000, 0}}, {{0, 0}, {0, 0}, {0.1, 50}, 1, true}}, dt);
+        std::vector<double> times;
+        sim.onContact([&](const Contact& c) { times.push_back(c.time); });
+        sim.step();
+        ASSERT_EQ(times.size(), 1u);
+        EXPECT_NEAR(times[0], 989.0 / 120000, 1e-17);
+        EXPECT_EQ(velocity(sim, 0), Vec2(-6000, 0));
+    }
+}
+
+TEST(Continuous, OverlapsKeepEnergyAndSeparate) {
+    for (const Vec2& offset : {Vec2(0, 0), Vec2(0.5, 0.1), Vec2(-0.2, 0.6)}) {
+        Simulation sim = simulate({{{0, 0}, {2, 1}}, {offset, {-1, 3}}});
+        const double energy = kineticEnergy(sim.world());
+        const Vec2 sum = momentum(sim.world());
+        sim.run(600);
+        EXPECT_EQ(kineticEnergy(sim.world()), energy);
+        EXPECT_EQ(momentum(sim.world()), sum);
+        EXPECT_EQ(overlap(sim.world()).pairs, 0u);
+    }
+}
+
+TEST(Continuous, GoesOnFromASnapshotBitForBit) {
+    for (const Precision precision : {Precision::Double, Precision::Float}) {
+        const auto start = [&] {
+            Scene scene = loadScene(QUADRILLE_SCENES_DIR "/mixed-sizes.toml", {.entities = 300});
+            return Simulation(std::move(scene.world),
+                              {.law = Law::Continuous, .precision = precision});
+        };
+        Simulation whole = start();
+        whole.run(400);
+        Simulation first = start();
+        first.run(150);
+        const auto file = std::filesystem::temp_directory_path() / "quadrille_continuous.snapshot";
+        saveSnapshot(file, first, "mixed-sizes", 1);
+        Snapshot snapshot = loadSnapshot(file);
+        std::filesystem::remove(file);
+        Simulation second(std::move(snapshot.world), {.partitioner = StaticGrid{},
+                                                      .law = snapshot.law,
+                                                      .precision = precision,
+                                                      .dt = snapshot.step.dt});
+        second.resumeAt(snapshot.stepsDone);
+        second.run(250);
+        EXPECT_EQ(stateHash(second.world()), stateHash(whole.world()));
+    }
+}
+
+}  // namespace
+}  // namespace quadrille

@@ -1,0 +1,342 @@
+// The resolver `threads` gives what `sequential` gives, bit for bit: state, contacts, cells,
+// counts.
+
+#include <algorithm>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <ostream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <quadrille/measure.hpp>
+
+#include "core/stepper.hpp"
+#include "random_scene.hpp"
+#include "support.hpp"
+
+namespace quadrille {
+namespace {
+
+using EveryFrames = SemiStaticQuadtree::EveryFrames;
+using Skin = SemiStaticQuadtree::Skin;
+
+const std::vector<PartitionerConfig> partitioners = {
+    BruteForce{},
+    StaticGrid{},
+    StaticGrid{{9, 14}},
+    Quadtree{},
+    Quadtree{6, 3},
+    SemiStaticQuadtree{},
+    SemiStaticQuadtree{8, 5, Skin{2}},
+    // Misses pairs, and shows some more than once.
+    SemiStaticQuadtree{10, 4, EveryFrames{7}},
+};
+
+const std::vector<int> threadCounts = {1, 2, 3, 7, 16};
+
+auto keysOf(const ContactRecord& r) {
+    return std::tuple(r.time, r.a, r.b, r.axes, r.senseX, r.senseY, r.collided);
+}
+
+/// All that a step shows of itself.
+struct Seen {
+    std::uint64_t hash, contacts, collisions, pairsTested;
+    bool rebuilt;
+    std::vector<std::uint32_t> offsets, bodies;
+    std::vector<ContactRecord> records;
+};
+
+void expectEqual(const Seen& seen, const Seen& expected) {
+    EXPECT_EQ(seen.hash, expected.hash);
+    EXPECT_EQ(seen.contacts, expected.contacts);
+    EXPECT_EQ(seen.collisions, expected.collisions);
+    EXPECT_EQ(seen.pairsTested, expected.pairsTested);
+    EXPECT_EQ(seen.rebuilt, expected.rebuilt);
+    EXPECT_TRUE(seen.offsets == expected.offsets && seen.bodies == expected.bodies);
+    ASSERT_EQ(seen.records.size(), expected.records.size());
+    for (std::size_t i = 0; i < seen.records.size(); ++i) {
+        ASSERT_EQ(keysOf(seen.records[i]), keysOf(expected.records[i])) << "contact " << i;
+    }
+}
+
+/// Steps of a world whose loops are shared out however short they are.
+template <class Real>
+std::vector<Seen> stepsOf(World world, const SimulationConfig& config, std::uint64_t steps,
+                          bool record) {
+    world.setPrecision(config.precision);
+    Stepper<Real> stepper(config, world.config().size, true);
+    std::vector<Seen> result;
+    for (std::uint64_t number = 1; number <= steps; ++number) {
+        StepReport report;
+        Seen seen{};
+        stepper.step(world, number, record ? &seen.records : nullptr, report, false);
+        seen.hash = stateHash(world);
+        seen.contacts = report.contacts;
+        seen.collisions = report.collisions;
+        seen.pairsTested = report.pairsTested;
+        seen.rebuilt = report.rebuilt;
+        seen.offsets = stepper.cells().offsets;
+        seen.bodies = stepper.cells().bodies;
+        result.push_back(std::move(seen));
+    }
+    return result;
+}
+
+template <class MakeWorld>
+void expectTheSameOnThreads(const MakeWorld& makeWorld, SimulationConfig config,
+                            std::uint64_t steps, const std::vector<int>& counts) {
+    const auto run = [&](bool record) {
+        return config.precision == Precision::Double
+                   ? stepsOf<double>(makeWorld(), config, steps, record)
+                   : stepsOf<float>(makeWorld(), config, steps, record);
+    };
+    config.resolver = ResolverKind::Sequential;
+    const auto recorded = run(true);
+    config.resolver = ResolverKind::Threads;
+    for (const int threads : counts) {
+        for (const bool record : {false, true}) {
+            SCOPED_TRACE(std::to_string(threads) + " threads" + (record ? ", recorded" : ""));
+            config.threads = threads;
+            const auto seen = run(record);
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                SCOPED_TRACE("step " + std::to_string(i + 1));
+                Seen expected = recorded[i];
+                if (!record) expected.records.clear();
+                ASSERT_NO_FATAL_FAILURE(expectEqual(seen[i], expected));
+                if (testing::Test::HasFailure()) return;
+            }
+        }
+    }
+}
+
+class Threads : public testing::TestWithParam<Precision> {};
+
+INSTANTIATE_TEST_SUITE_P(Precisions, Threads, testing::Values(Precision::Double, Precision::Float),
+                         [](const auto& test) { return std::string(name(test.param)); });
+
+TEST_P(Threads, RandomScenes) {
+    for (const SceneKind kind : sceneKinds) {
+        for (std::uint64_t seed = 100; seed < 102; ++seed) {
+            for (std::size_t i = 0; i < partitioners.size(); ++i) {
+                SCOPED_TRACE(std::string(name(kind)) + ", seed " + std::to_string(seed) +
+                             ", partitioner " + std::to_string(i));
+                expectTheSameOnThreads([&] { return randomScene(kind, seed, 120, 200); },
+                                       {.partitioner = partitioners[i],
+                                        .precision = GetParam(),
+                                        .gravity = {0, seed % 2 == 0 ? 0.0 : -50.0},
+                                        .restitution = seed % 3 == 0 ? 1 : 0.6},
+                                       6, {threadCounts[(seed + i) % threadCounts.size()]});
+                if (HasFailure()) return;
+            }
+        }
+    }
+}
+
+TEST_P(Threads, TreesThatAreSplitOnAllThreads) {
+    // Enough references for several blocks in the upper nodes, and nodes that all bodies cover.
+    for (std::uint64_t seed = 8; seed < 10; ++seed) {
+        const auto world = [&] {
+            World w({.size = {400, 300}, .seed = seed});
+            Random& random = w.random();
+            for (int i = 0; i < 6000; ++i) {
+                const bool crowded = i % 3 == 0;
+                const Vec2 position =
+                    crowded ? Vec2(random.uniform(60, 63), random.uniform(50, 70))
+                            : Vec2(random.uniform(-200, 200), random.uniform(-150, 150));
+                makeBox(w, position, moving(random.uniform(-30, 30), random.uniform(-30, 30)),
+                        seed == 9 && i % 2 == 0 ? Vec2(3, 3) : Vec2(1, 2));
+            }
+            return w;
+        };
+        for (const PartitionerConfig& partitioner : std::vector<PartitionerConfig>{
+                 Quadtree{10, 20}, Quadtree{3, 50}, StaticGrid{}, SemiStaticQuadtree{}}) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", " + name(partitioner));
+            expectTheSameOnThreads(world, {.partitioner = partitioner, .precision = GetParam()}, 2,
+                                   {3});
+            if (HasFailure()) return;
+        }
+    }
+}
+
+struct Shipped {
+    std::string scene;
+    std::uint64_t entities;  ///< 0: as many as the scene has
+};
+
+std::ostream& operator<<(std::ostream& out, const Shipped& s) {
+    return out << s.scene << ", " << s.entities << " entities";
+}
+
+class ShippedScenes : public testing::TestWithParam<std::tuple<Shipped, Precision>> {};
+
+TEST_P(ShippedScenes, EveryPartitionerAndNumberOfThreads) {
+    const auto& [shipped, precision] = GetParam();
+    const auto load = [&, count = shipped.entities, file = shipped.scene] {
+        return count > 0 ? shippedScene(file, count) : shippedScene(file);
+    };
+    const StepSettings step = load().step;
+    for (std::size_t i = 0; i < partitioners.size(); ++i) {
+        SCOPED_TRACE("partitioner " + std::to_string(i));
+        expectTheSameOnThreads([&] { return load().world; },
+                               {.partitioner = partitioners[i],
+                                .precision = precision,
+                                .dt = step.dt,
+                                .gravity = step.gravity,
+                                .restitution = step.restitution},
+                               12, threadCounts);
+        if (HasFailure()) return;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Threads, ShippedScenes,
+    testing::Combine(testing::Values(Shipped{"balanced", 300}, Shipped{"balanced-scaled", 300},
+                                     Shipped{"bullet", 0}, Shipped{"cradle", 0},
+                                     Shipped{"demo13k", 300}, Shipped{"imbalanced", 20},
+                                     Shipped{"mixed-sizes", 300}, Shipped{"pi", 0},
+                                     Shipped{"pile", 200}),
+                     testing::Values(Precision::Double, Precision::Float)),
+    [](const auto& test) {
+        std::string text =
+            std::get<0>(test.param).scene + "In" + std::string(name(std::get<1>(test.param)));
+        std::erase(text, '-');
+        return text;
+    });
+
+// ---- through the public interface, where short loops stay on one thread
+
+std::uint64_t hashAfter(const std::string& scene, std::uint64_t entities, int threads,
+                        std::uint64_t steps) {
+    Scene loaded = shippedScene(scene, entities);
+    Simulation sim(std::move(loaded.world),
+                   {.resolver = threads > 0 ? ResolverKind::Threads : ResolverKind::Sequential,
+                    .threads = threads,
+                    .dt = loaded.step.dt,
+                    .gravity = loaded.step.gravity,
+                    .restitution = loaded.step.restitution});
+    EXPECT_EQ(sim.threads(), std::max(threads, 1));
+    sim.run(steps);
+    return stateHash(sim.world());
+}
+
+TEST(ThreadsInSimulation, LargeScenesEndInTheSameState) {
+    for (const auto& [scene, entities, steps] :
+         {std::tuple("demo13k", 12'000, 60), std::tuple("balanced", 30'000, 40),
+          std::tuple("imbalanced", 500, 60), std::tuple("pile", 4'000, 60)}) {
+        SCOPED_TRACE(scene);
+        const std::uint64_t expected = hashAfter(scene, entities, 0, steps);
+        EXPECT_EQ(hashAfter(scene, entities, 2, steps), expected);
+        EXPECT_EQ(hashAfter(scene, entities, 5, steps), expected);
+    }
+}
+
+TEST(ThreadsInSimulation, ListenersHearTheContactsInCanonicalOrder) {
+    const auto contacts = [](ResolverKind resolver) {
+        Scene scene = shippedScene("imbalanced", 200);
+        Simulation sim(std::move(scene.world),
+                       {.resolver = resolver, .threads = 3, .dt = scene.step.dt});
+        std::vector<std::tuple<double, std::int64_t, std::int64_t, bool>> seen;
+        sim.onContact(
+            [&](const Contact& c) { seen.emplace_back(c.time, c.rowA, c.rowB, c.collided); });
+        sim.run(20);
+        return seen;
+    };
+    const auto expected = contacts(ResolverKind::Sequential);
+    EXPECT_GT(expected.size(), 10'000u);
+    EXPECT_TRUE(contacts(ResolverKind::Threads) == expected);
+}
+
+TEST(ThreadsInSimulation, OneLongChainOfContacts) {
+    // Every body touches the next, so that each contact waits for another one.
+    const auto hash = [](ResolverKind resolver) {
+        World world({.size = {20'000, 100}});
+        for (int i = 0; i < 5000; ++i) {
+            makeBox(world, {3.0 * i - 7500, 0}, moving(i == 0 ? 50 : i % 7, i % 3), {3.25, 3});
+        }
+        Simulation sim(std::move(world), {.resolver = resolver, .threads = 4});
+        sim.run(20);
+        return stateHash(sim.world());
+    };
+    EXPECT_EQ(hash(ResolverKind::Threads), hash(ResolverKind::Sequential));
+}
+
+TEST(ThreadsInSimulation, BodiesMayComeAndGo) {
+    const auto hash = [](ResolverKind resolver) {
+        Scene scene = shippedScene("demo13k", 3000);
+        Simulation sim(std::move(scene.world), {.resolver = resolver, .threads = 3});
+        for (int round = 0; round < 6; ++round) {
+            sim.run(5);
+            World& world = sim.world();
+            for (int i = 0; i < 500; ++i) {
+                makeBox(world, {double(i % 40) * 4 - 80, double(i / 40) * 4 - 20 + round},
+                        moving(i % 9 - 4.0, round), {3, 3});
+            }
+            if (round % 2 == 1) {
+                for (std::uint32_t id = 10; id < 400; id += 3) {
+                    if (const Entity entity = world.at(id); world.alive(entity)) {
+                        if (!world.get<PhysicsBody>(entity).isStatic) world.destroy(entity);
+                    }
+                }
+            }
+        }
+        return stateHash(sim.world());
+    };
+    EXPECT_EQ(hash(ResolverKind::Threads), hash(ResolverKind::Sequential));
+}
+
+TEST(ThreadsInSimulation, AnOverflowNamesTheFirstEntity) {
+    World world({.size = {1e6, 1e6}});
+    for (int i = 0; i < 60'000; ++i) {
+        const double speed = i == 31'000 || i == 59'000 ? 1e308 : 1;
+        makeBox(world, {double(i % 300) * 10, double(i / 300) * 10}, moving(0, speed));
+    }
+    Simulation sim(std::move(world), {.resolver = ResolverKind::Threads, .threads = 4, .dt = 1});
+    try {
+        sim.run(10);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("entity 31000:"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(ThreadsInSimulation, TwoSimulationsTakeTurns) {
+    const auto make = [](int threads) {
+        Scene scene = shippedScene("demo13k", 5000);
+        return Simulation(std::move(scene.world),
+                          {.resolver = ResolverKind::Threads, .threads = threads});
+    };
+    Simulation first = make(2);
+    Simulation second = make(5);
+    for (int i = 0; i < 20; ++i) {
+        first.step();
+        second.step();
+    }
+    EXPECT_EQ(stateHash(first.world()), stateHash(second.world()));
+}
+
+TEST(ThreadsInSimulation, ImpossibleNumbersOfThreadsAreRefused) {
+    for (const int threads : {-1, 1025}) {
+        EXPECT_THROW(Simulation(World{}, {.resolver = ResolverKind::Threads, .threads = threads}),
+                     Error);
+    }
+    EXPECT_EQ(Simulation(World{}, {.resolver = ResolverKind::Threads}).threads(),
+              Simulation::cores());
+    EXPECT_EQ(Simulation(World{}, {.threads = 4}).threads(), 1);
+}
+
+TEST(ThreadsInSimulation, OtherLawsAreNotAvailable) {
+    for (const Law law : {Law::Baseline, Law::Continuous}) {
+        try {
+            Simulation sim(World{}, {.law = law, .resolver = ResolverKind::Threads});
+            FAIL() << name(law);
+        } catch (const NotAvailable& error) {
+            EXPECT_NE(std::string(error.what()).find(name(law)), std::string::npos);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace quadrille
