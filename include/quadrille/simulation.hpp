@@ -132,6 +132,11 @@ class Simulation {
     /// Takes effect with the next step; the state stays as it is.
     void setPartitioner(const PartitionerConfig& partitioner);
 
+    /// The same for everything that a step is made with: law, resolver, gravity, what is measured.
+    /// Throws what the constructor throws, and Error if dt or precision would change, since the
+    /// time and the state are kept in them; then nothing changes.
+    void reconfigure(const SimulationConfig& config);
+
     /// The cells of the last step; empty before the first.
     const Cells& cells() const;
 

@@ -20,7 +20,7 @@ void row(std::ostream& out, bool modelled, const std::string& what, const std::s
 
 }  // namespace
 
-void explain(std::ostream& out, const Run& run) {
+void explain(std::ostream& out, const Run& run, bool window) {
     const Simulation& simulation = run.simulation;
     const SimulationConfig& config = simulation.config();
     const World& world = simulation.world();
@@ -44,8 +44,10 @@ void explain(std::ostream& out, const Run& run) {
         : f.massesDiffer ? ""
                          : "equal masses swap their velocities");
     row(out, f.listeners, "contact listeners", f.listeners ? "" : "no list of events is made");
-    row(out, f.profile, "profile", f.profile ? "" : "no clock is read inside a step");
-    row(out, false, "renderer", "headless: no colours are stored");
+    const bool profile = f.profile || window;
+    row(out, profile, "profile", profile ? "" : "no clock is read inside a step");
+    row(out, window, "renderer",
+        window ? "a colour for each body" : "headless: no colours are stored");
     if (world.movingCount() > 0) {
         std::array<char, 128> line{};
         std::snprintf(

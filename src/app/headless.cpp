@@ -3,13 +3,9 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
-#include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <system_error>
+#include <utility>
 
 #ifdef _WIN32
 #include <io.h>
@@ -19,13 +15,8 @@
 #define QUADRILLE_ISATTY(stream) (isatty(fileno(stream)) != 0)
 #endif
 
-#include "accuracy/error_meter.hpp"
-#include "app/error_summary.hpp"
 #include "app/interrupt.hpp"
-#include "app/output_file.hpp"
-#include "app/recorders.hpp"
-#include "app/run_statistics.hpp"
-#include "app/summary.hpp"
+#include "app/run_session.hpp"
 
 namespace quadrille::app {
 
@@ -91,97 +82,39 @@ class ProgressLine {
     bool shown_;
 };
 
-/// A snapshot is opened at the end of the run, too late to say that it cannot be.
-void requireWritable(const std::string& snapshot) {
-    std::error_code error;
-    const auto status = std::filesystem::status(snapshot, error);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw Error(snapshot + ": is not a file that a snapshot can replace");
-    }
-    const OutputFile probe(snapshot);
-}
-
 }  // namespace
 
 void runHeadless(Run run, const Options& options) {
-    Simulation& simulation = run.simulation;
-    // A file that cannot be written should fail now and not after the run.
-    std::optional<OutputFile> json;
-    if (!options.json.empty()) json.emplace(options.json);
-    std::optional<OutputFile> state;
-    if (!options.dumpState.empty()) state.emplace(options.dumpState);
-    if (!options.save.empty()) requireWritable(options.save);
-    std::optional<FrameRecorder> frames;
-    if (!options.csv.empty()) frames.emplace(options.csv);
-    std::optional<EventRecorder> events;
-    if (!options.dumpEvents.empty()) {
-        events.emplace(options.dumpEvents);
-        simulation.onContact([&](const Contact& contact) { events->record(contact); });
-    }
-
-    // Data on stdout must not be mixed with words.
-    const bool dataOnStdout = options.json == "-" || options.csv == "-" ||
-                              options.dumpState == "-" || options.dumpEvents == "-";
-    std::ostream& words = dataOnStdout ? std::cerr : std::cout;
-
-    std::optional<accuracy::ErrorMeter> meter;
-    if (options.error) meter.emplace(simulation);
-
-    const Conserved start = Conserved::of(simulation);
-    bool deviceFailed = !simulation.resolverFailure().empty();
-    RunStatistics statistics;
-    PeriodicReport report(words, simulation, start.total);
+    RunSession session(std::move(run), options);
+    const Simulation& simulation = session.simulation();
+    const RunStatistics& statistics = session.statistics();
+    PeriodicReport report(wordsOf(options), simulation, session.start().total);
     ProgressLine progress(options.frames);
-    const auto begin = Clock::now();
-    auto lastReport = begin;
-    auto lastProgress = begin;
-    const std::uint64_t frameLimit =
-        options.frames.value_or(std::numeric_limits<std::uint64_t>::max());
-    while (statistics.frames() < frameLimit && !interrupted()) {
-        const auto before = Clock::now();
-        const StepReport& step = simulation.step();
-        const auto after = Clock::now();
-        const double milliseconds =
-            1e3 * (secondsBetween(before, after) - step.auditSeconds - step.observeSeconds);
-        statistics.add(step, milliseconds);
+    bool deviceFailed = !simulation.resolverFailure().empty();
+    auto lastReport = Clock::now();
+    auto lastProgress = lastReport;
+    while (!session.allFramesDone() && !interrupted()) {
+        session.step();
+        const auto now = Clock::now();
         if (!deviceFailed && !simulation.resolverFailure().empty()) {
             progress.wipe();
             warnOfFallback(simulation);
             deviceFailed = true;
         }
-        if (meter) meter->follow();
-        if (frames) frames->record(simulation, step, milliseconds);
-        if (secondsBetween(lastProgress, after) >= 0.2) {
+        if (secondsBetween(lastProgress, now) >= 0.2) {
             progress.show(statistics.frames());
-            lastProgress = after;
+            lastProgress = now;
         }
-        if (secondsBetween(lastReport, after) >= options.reportEvery) {
+        if (secondsBetween(lastReport, now) >= options.reportEvery) {
             progress.wipe();
             report.print(statistics);
-            lastReport = after;
+            lastReport = now;
         }
-        if (options.duration && secondsBetween(begin, after) >= *options.duration) break;
+        if (session.timeIsUp()) break;
     }
     progress.wipe();
     report.print(statistics);
-    auto summary = summaryJson(run, statistics, start);
-    printSummary(words, summary);
-    if (meter) {
-        summary["error"] = nullptr;  // interrupted before the first frame
-        if (statistics.frames() > 0) {
-            summary["error"] = errorJson(meter->metrics());
-            printError(words, summary["error"]);
-        }
-    }
-
-    if (frames) frames->commit();
-    if (events) events->commit();
-    if (state) writeState(*state, simulation.world());
-    if (!options.save.empty()) saveSnapshot(options.save, simulation, run.scene, run.seed);
-    if (json) {
-        json->stream() << summary.dump(2) << '\n';
-        json->commit();
-    }
+    session.finish();
 }
 
 }  // namespace quadrille::app

@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/run_setup.hpp"
+#include "app/window/run_window.hpp"
 
 namespace quadrille::app {
 
@@ -29,15 +30,15 @@ int run(int argc, char** argv) {
         if (!options.dumpEvents.empty() || options.error) {
             run.simulation.onContact([](const Contact&) {});
         }
-        explain(std::cout, run);
+        explain(std::cout, run, !options.headless);
         return done;
     }
-    if (!options.headless) {
-        std::cerr << "collisionStress: this build has no window; use --headless\n";
-        return runtimeFailure;
-    }
     catchInterrupts();
-    runHeadless(setUp(options), options);
+    if (options.headless) {
+        runHeadless(setUp(options), options);
+    } else {
+        runWindow(options);
+    }
     return done;
 }
 

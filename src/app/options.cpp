@@ -26,7 +26,6 @@ struct RawOptions {
     std::string rebuild = "skin";
     std::string law, precision;
     std::string cudaThread = "body";
-    std::string screenshot;
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -258,15 +257,12 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
-    app.add_option("--screenshot", raw.screenshot, "Write the last frame shown as PNG")
-        ->check(fileName)
-        ->type_name("FILE")
-        ->group("Output");
     app.add_flag("--explain", options.explain,
                  "Print what the scene makes the engine model, and exit")
         ->group("Output");
     app.add_flag("--list", options.list, "List scenes, partitioners, resolvers and laws, and exit")
         ->group("Output");
+    declareWindowOptions(app, options.window);
     app.footer(
         "Results go to stdout, messages to stderr.\n"
         "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 bad scene or snapshot, 4 no such "
@@ -275,12 +271,13 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
 
 /// Two outputs would write over each other under one name.
 void refuseSharedOutputs(const Options& options) {
-    const std::array<std::pair<const char*, const std::string*>, 5> outputs = {{
+    const std::array<std::pair<const char*, const std::string*>, 6> outputs = {{
         {"--json", &options.json},
         {"--csv", &options.csv},
         {"--dump-state", &options.dumpState},
         {"--dump-events", &options.dumpEvents},
         {"--save", &options.save},
+        {"--screenshot", &options.window.screenshot},
     }};
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
@@ -301,7 +298,9 @@ void interpret(Options& options, const RawOptions& raw) {
     if (options.error && options.frames == 0) {
         throw UsageError("--error: there is nothing to compare after --frames 0");
     }
-    if (!raw.screenshot.empty()) throw UsageError("--screenshot: this version has no window yet");
+    if (options.headless && !options.window.screenshot.empty()) {
+        throw UsageError("--screenshot: there is nothing to see with --headless");
+    }
     int onStdout = 0;
     for (const std::string* file :
          {&options.json, &options.csv, &options.dumpState, &options.dumpEvents}) {
@@ -310,6 +309,9 @@ void interpret(Options& options, const RawOptions& raw) {
     if (onStdout > 1) throw UsageError("only one output can go to stdout ('-')");
     refuseSharedOutputs(options);
     if (options.save == "-") throw UsageError("--save: a snapshot cannot go to stdout");
+    if (options.window.screenshot == "-") {
+        throw UsageError("--screenshot: a picture cannot go to stdout");
+    }
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <quadrille/partitioner.hpp>
 #include <quadrille/simulation.hpp>
 
+#include "app/window_options.hpp"
+
 namespace quadrille::app {
 
 /// A combination of options that makes no sense; ends the program with exit code 2.
@@ -43,6 +45,8 @@ struct Options {
 
     std::string json, csv, dumpState, dumpEvents;  ///< file names, "-" for stdout, or empty
     std::string save, load;
+
+    WindowOptions window;
 };
 
 /// Either options, or the exit code of a program that has already said what there was to say

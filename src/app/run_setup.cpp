@@ -29,8 +29,9 @@ Start loadStart(const Options& options) {
                 .law = snapshot.law,
                 .stepsDone = snapshot.stepsDone};
     }
-    Scene scene =
-        loadScene(findScene(options.scene), {.entities = options.entities, .seed = options.seed});
+    Scene scene = loadScene(
+        findScene(options.scene),
+        {.entities = options.entities, .seed = options.seed, .renderers = !options.headless});
     return {.scene = std::move(scene.name),
             .seed = scene.seed,
             .world = std::move(scene.world),
@@ -79,13 +80,6 @@ ResolverKind chooseResolver(const Options& options, const SimulationConfig& conf
     return ResolverKind::Sequential;
 }
 
-/// The report's policy misses pairs; how many is part of its result.
-bool mayMissPairs(const PartitionerConfig& partitioner) {
-    const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
-    return tree != nullptr &&
-           std::holds_alternative<SemiStaticQuadtree::EveryFrames>(tree->rebuild);
-}
-
 /// With --error, all pairs of scenes up to this size are compared in every frame, and in one of ten
 /// where there are more bodies.
 constexpr std::size_t mostAuditedInEveryFrame = 20'000;
@@ -95,6 +89,12 @@ constexpr std::size_t mostAuditedInEveryFrame = 20'000;
 void warnOfFallback(const Simulation& simulation) {
     std::cerr << "collisionStress: warning: the resolver 'cuda' cannot run ("
               << simulation.resolverFailure() << "); running 'sequential'\n";
+}
+
+bool mayMissPairs(const PartitionerConfig& partitioner) {
+    const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
+    return tree != nullptr &&
+           std::holds_alternative<SemiStaticQuadtree::EveryFrames>(tree->rebuild);
 }
 
 Run setUp(const Options& options) {

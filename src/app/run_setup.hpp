@@ -30,4 +30,7 @@ void warnOfFallback(const Simulation& simulation);
 /// that cannot run is replaced by the sequential one, with a warning on stderr.
 Run setUp(const Options& options);
 
+/// The report's policy misses pairs; how many is part of its result, and is counted.
+bool mayMissPairs(const PartitionerConfig& partitioner);
+
 }  // namespace quadrille::app

@@ -3,6 +3,8 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <quadrille/simulation.hpp>
@@ -13,10 +15,26 @@ struct FrameTimes {
     double mean = 0, median = 0, p99 = 0;  ///< ms
 };
 
+/// What showing a picture takes: building and drawing the panels; filling the buffers of bodies and
+/// cells; drawing them; handing the picture to the screen.
+enum class ShowPhase : std::uint8_t { Gui, Prepare, Draw, Present };
+inline constexpr std::size_t showPhaseCount = 4;
+
+/// The pictures that a window has shown.
+struct Shown {
+    int width = 0, height = 0;  ///< framebuffer pixels
+    std::string renderer;       ///< the OpenGL driver's name for what draws
+    std::uint64_t pictures = 0;
+    std::array<double, showPhaseCount> seconds{};
+};
+
 /// Adds up what the steps of a run report. Memory stays bounded however long it runs.
 class RunStatistics {
   public:
     void add(const StepReport& report, double milliseconds);
+
+    /// Only where there is a window.
+    std::optional<Shown> shown;
 
     std::uint64_t frames() const { return frames_; }
     double totalMilliseconds() const { return totalMilliseconds_; }

@@ -15,6 +15,9 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, phaseCount> phaseNames = {
     "integrate", "partition", "flatten", "copy_to_device", "resolve", "copy_to_host", "observe"};
 
+constexpr std::array<std::string_view, showPhaseCount> showPhaseNames = {"gui", "prepare", "draw",
+                                                                         "present"};
+
 std::string hexadecimal(std::uint64_t value) {
     std::array<char, 17> text{};
     std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
@@ -46,6 +49,10 @@ Json partitionerParameters(const PartitionerConfig& config) {
 }
 
 }  // namespace
+
+std::string_view phaseName(std::size_t phase) {
+    return phase < phaseCount ? phaseNames[phase] : showPhaseNames[phase - phaseCount];
+}
 
 Conserved Conserved::of(const Simulation& simulation) {
     return {.kinetic = kineticEnergy(simulation.world()),
@@ -89,8 +96,22 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
         const auto phases = statistics.phaseMilliseconds();
         Json& out = json["phases_ms"];
         for (std::size_t i = 0; i < phaseCount; ++i) out[std::string(phaseNames[i])] = phases[i];
+        if (statistics.shown && statistics.shown->pictures > 0) {
+            for (std::size_t i = 0; i < showPhaseCount; ++i) {
+                out[std::string(showPhaseNames[i])] =
+                    1e3 * statistics.shown->seconds[i] / double(statistics.shown->pictures);
+            }
+        }
     } else {
         json["phases_ms"] = nullptr;
+    }
+    if (const auto& shown = statistics.shown) {
+        json["window"] = {{"pictures", shown->pictures},
+                          {"width", shown->width},
+                          {"height", shown->height},
+                          {"renderer", shown->renderer}};
+    } else {
+        json["window"] = nullptr;
     }
     json["cells"] = cells.cells;
     json["active_cells"] = cells.activeCells;
@@ -155,8 +176,9 @@ void printSummary(std::ostream& out, const Json& json) {
                             number(ms["p99"], "%.4f p99"));
     if (!json["phases_ms"].is_null()) {
         std::string phases;
-        for (const std::string_view phase : phaseNames) {
-            const std::string key(phase);
+        for (std::size_t i = 0; i < phaseCount + showPhaseCount; ++i) {
+            const std::string key(phaseName(i));
+            if (!json["phases_ms"].contains(key)) continue;
             phases +=
                 (phases.empty() ? "" : ", ") + key + " " + number(json["phases_ms"][key], "%.4f");
         }

@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include <quadrille/quadrille.hpp>
 
@@ -20,6 +21,9 @@ struct Conserved {
 
     static Conserved of(const Simulation& simulation);
 };
+
+/// Names as the summary has them, with the phases of a step first and those of showing it after.
+std::string_view phaseName(std::size_t phase);
 
 /// end / start - 1, or 0 if both are 0.
 double relativeDrift(double start, double end);

@@ -213,7 +213,7 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
         Vec2 room = config.size;
         if (description.walls) {
             for (const Entity wall : world.addWalls(*description.walls)) {
-                if (options.renderers) world.add(wall, RectangleRenderer{{0x33, 0x44, 0x55}});
+                if (options.renderers) world.add(wall, RectangleRenderer{{0x26, 0x30, 0x3b}});
             }
             room -= 2 * Vec2(description.walls->inset, description.walls->inset);
         }

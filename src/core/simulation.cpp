@@ -65,6 +65,7 @@ struct Simulation::Impl {
     World world;
     SimulationConfig config;
     AnyStepper stepper;
+    std::string resolverFailure;  // outlives the stepper that noticed it
     StepReport report;
     std::uint64_t stepsDone = 0;
 
@@ -80,19 +81,21 @@ struct Simulation::Impl {
           config(std::move(c)),
           stepper(makeStepper(config, world.config().size)) {
         world.setPrecision(config.precision);
+        dropUnusedAnchors();
         noteFallback();
     }
 
+    void dropUnusedAnchors();
     void collectContacts();
     void notify();
 
-    const std::string& resolverFailure() const {
-        return std::visit([](const auto& s) -> const std::string& { return s.resolverFailure(); },
-                          stepper);
-    }
     /// Says in the configuration what runs after a fallback.
     void noteFallback() {
-        if (!resolverFailure().empty()) config.resolver = ResolverKind::Sequential;
+        const std::string& failure = std::visit(
+            [](const auto& s) -> const std::string& { return s.resolverFailure(); }, stepper);
+        if (failure.empty()) return;
+        config.resolver = ResolverKind::Sequential;
+        resolverFailure = failure;
     }
 };
 
@@ -124,6 +127,12 @@ const StepReport& Simulation::step() {
     s.noteFallback();
     s.notify();
     return s.report;
+}
+
+/// Discrete laws move bodies without their anchors; `continuous` must not find old ones later.
+void Simulation::Impl::dropUnusedAnchors() {
+    if (config.law == Law::Continuous) return;
+    world.visitBodies([](const auto& bodies) { *bodies.moving.anchors = {}; });
 }
 
 /// Contacts are complete before a listener sees one: it may create and destroy bodies.
@@ -174,7 +183,7 @@ void Simulation::run(std::uint64_t steps) {
 World& Simulation::world() { return impl_->world; }
 const World& Simulation::world() const { return impl_->world; }
 const SimulationConfig& Simulation::config() const { return impl_->config; }
-const std::string& Simulation::resolverFailure() const { return impl_->resolverFailure(); }
+const std::string& Simulation::resolverFailure() const { return impl_->resolverFailure; }
 
 std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
 double Simulation::time() const { return StepTimes(impl_->config.dt).at(impl_->stepsDone); }
@@ -194,10 +203,22 @@ void Simulation::addSystem(std::function<void(World&, double)> system) {
 void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
     SimulationConfig config = impl_->config;
     config.partitioner = partitioner;
-    std::visit([&](auto& s) { s.setPartitioner(config, impl_->world.config().size); },
-               impl_->stepper);
-    impl_->config = std::move(config);
-    impl_->noteFallback();
+    reconfigure(config);
+}
+
+void Simulation::reconfigure(const SimulationConfig& config) {
+    Impl& s = *impl_;
+    validate(config);
+    if (config.dt != s.config.dt) throw Error("simulation: dt cannot change during a run");
+    if (config.precision != s.config.precision) {
+        throw Error("simulation: the precision cannot change during a run");
+    }
+    AnyStepper stepper = makeStepper(config, s.world.config().size);
+    s.config = config;
+    s.stepper = std::move(stepper);
+    if (config.resolver != ResolverKind::Sequential) s.resolverFailure.clear();
+    s.dropUnusedAnchors();
+    s.noteFallback();
 }
 
 const Cells& Simulation::cells() const {

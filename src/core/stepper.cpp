@@ -64,18 +64,13 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize, bo
                   static_cast<Real>(config.gravity.y()), static_cast<Real>(config.restitution)},
       team_(std::make_unique<ThreadTeam>(threadsOf(config), eager)),
       times_(config.dt) {
-    setPartitioner(config, worldSize);
     if (config.countMissedPairs) {
         missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
     }
-}
-
-template <class Real>
-void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& worldSize) {
-    // The resolver remembers pairs of the partition that it saw last, so both are replaced.
-    auto partitioner = makePartitioner<Real>(config.partitioner, worldSize, *team_);
+    // The resolver remembers pairs of the partition that it saw last, so both are made at once.
+    partitioner_ = makePartitioner<Real>(config.partitioner, worldSize, *team_);
     if (config.law == Law::Continuous) {
-        if (!partitioner->partition().complete) {
+        if (!partitioner_->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
         continuous_ = makeContinuousLaw<Real>(config);
@@ -87,7 +82,6 @@ void Stepper<Real>::setPartitioner(const SimulationConfig& config, const Vec2& w
             useSequential(config, failure);
         }
     }
-    partitioner_ = std::move(partitioner);
     config_ = config;
     worldSize_ = worldSize;
 }

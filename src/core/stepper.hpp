@@ -25,8 +25,6 @@ class Stepper {
     /// `eager` shares out even the shortest loops, for tests of that.
     Stepper(const SimulationConfig& config, const Vec2& worldSize, bool eager = false);
 
-    void setPartitioner(const SimulationConfig& config, const Vec2& worldSize);
-
     /// One step, the `number`-th of the run, from 1. Contacts go to `records` unless it is null.
     /// Fills the report's counts and, with `profile`, its times.
     void step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,

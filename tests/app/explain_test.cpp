@@ -47,7 +47,7 @@ TEST(Explain, MixedSizesHaveTheirOwnSizes) {
 }
 
 TEST(Explain, BalancedNeedsLeast) {
-    const std::string text = explanationOf({"--scene", "balanced"});
+    const std::string text = explanationOf({"--scene", "balanced", "--headless"});
     EXPECT_EQ(modelled(text, "position and velocity"), "yes");
     EXPECT_EQ(modelled(text, "static bodies"), "yes");
     for (const char* absent : {"sizes", "masses", "gravity", "restitution below 1",
@@ -55,6 +55,13 @@ TEST(Explain, BalancedNeedsLeast) {
         EXPECT_EQ(modelled(text, absent), "no") << absent;
     }
     EXPECT_TRUE(contains(text, "50000 moving and 4 static"));
+}
+
+TEST(Explain, AWindowNeedsColoursAndShowsThePhases) {
+    const std::string text = explanationOf({"--scene", "balanced"});
+    EXPECT_EQ(modelled(text, "renderer"), "yes");
+    EXPECT_EQ(modelled(text, "profile"), "yes");
+    EXPECT_EQ(modelled(text, "gravity"), "no");
 }
 
 TEST(Explain, PiHasMassesOfItsOwn) {

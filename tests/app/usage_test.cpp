@@ -64,27 +64,33 @@ TEST_P(ImpossibleValue, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     Usage, ImpossibleValue,
-    testing::Values(Arguments{"--dt", "0"}, Arguments{"--dt", "-1"}, Arguments{"--dt", "nan"},
-                    Arguments{"--dt", "inf"}, Arguments{"--dt", "fast"},
-                    Arguments{"--restitution", "1.5"}, Arguments{"--restitution", "-0.1"},
-                    Arguments{"--restitution", "nan"}, Arguments{"--max-depth", "16"},
-                    Arguments{"--max-depth", "-1"}, Arguments{"--max-per-cell", "0"},
-                    Arguments{"--cell-size", "0,3"}, Arguments{"--cell-size", "3,-3"},
-                    Arguments{"--cell-size", "3x3"}, Arguments{"--cell-size", "1,2,3"},
-                    Arguments{"--cell-size", "nan"},
-                    Arguments{"--partitioner", "static-grid", "--cell-size", "0,3"},
-                    Arguments{"--partitioner", "static-grid", "--cell-size", "3x3"},
-                    Arguments{"--rebuild", "every:0"}, Arguments{"--rebuild", "every:2.5"},
-                    Arguments{"--rebuild", "every:"}, Arguments{"--rebuild", "skin:0"},
-                    Arguments{"--rebuild", "skin:-1"},
-                    Arguments{"--partitioner", "quadtree", "--rebuild", "never"},
-                    Arguments{"--duration", "0"}, Arguments{"--duration", "-1"},
-                    Arguments{"--duration", "nan"}, Arguments{"--report-every", "0"},
-                    Arguments{"--report-every", "nan"}, Arguments{"--json", ""},
-                    Arguments{"--save", ""}, Arguments{"--save", "-"}, Arguments{"--threads", "0"},
-                    Arguments{"--threads", "-1"}, Arguments{"--threads", "1.5"},
-                    Arguments{"--threads", "many"}, Arguments{"--threads", "1025"},
-                    Arguments{"--threads", "99999999999999999999"}),
+    testing::Values(
+        Arguments{"--dt", "0"}, Arguments{"--dt", "-1"}, Arguments{"--dt", "nan"},
+        Arguments{"--dt", "inf"}, Arguments{"--dt", "fast"}, Arguments{"--restitution", "1.5"},
+        Arguments{"--restitution", "-0.1"}, Arguments{"--restitution", "nan"},
+        Arguments{"--max-depth", "16"}, Arguments{"--max-depth", "-1"},
+        Arguments{"--max-per-cell", "0"}, Arguments{"--cell-size", "0,3"},
+        Arguments{"--cell-size", "3,-3"}, Arguments{"--cell-size", "3x3"},
+        Arguments{"--cell-size", "1,2,3"}, Arguments{"--cell-size", "nan"},
+        Arguments{"--partitioner", "static-grid", "--cell-size", "0,3"},
+        Arguments{"--partitioner", "static-grid", "--cell-size", "3x3"},
+        Arguments{"--rebuild", "every:0"}, Arguments{"--rebuild", "every:2.5"},
+        Arguments{"--rebuild", "every:"}, Arguments{"--rebuild", "skin:0"},
+        Arguments{"--rebuild", "skin:-1"},
+        Arguments{"--partitioner", "quadtree", "--rebuild", "never"}, Arguments{"--duration", "0"},
+        Arguments{"--duration", "-1"}, Arguments{"--duration", "nan"},
+        Arguments{"--report-every", "0"}, Arguments{"--report-every", "nan"},
+        Arguments{"--json", ""}, Arguments{"--save", ""}, Arguments{"--save", "-"},
+        Arguments{"--screenshot", ""}, Arguments{"--screenshot", "-"},
+        Arguments{"--window-size", "640"}, Arguments{"--window-size", "640x"},
+        Arguments{"--window-size", "0x480"}, Arguments{"--window-size", "640x480x2"},
+        Arguments{"--window-size", "640,480"}, Arguments{"--window-size", "9e3x480"},
+        Arguments{"--speed", "0"}, Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"},
+        Arguments{"--speed", "fast"}, Arguments{"--show", "cells"},
+        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"},
+        Arguments{"--threads", "0"}, Arguments{"--threads", "-1"}, Arguments{"--threads", "1.5"},
+        Arguments{"--threads", "many"}, Arguments{"--threads", "1025"},
+        Arguments{"--threads", "99999999999999999999"}),
     nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
@@ -135,13 +141,12 @@ TEST(Usage, OneOutputOnStdout) {
     expectUsageError({"--csv", "-", "--dump-state", "-"}, {"stdout"});
 }
 
-TEST(Usage, LawThatIsNotAvailableYet) {
-    expectUsageError({"--law", "continuous", "--scene", "pile"}, {"continuous", "gravity"});
+TEST(Usage, LawThatNeedsACompletePartition) {
     expectUsageError({"--law", "continuous", "--rebuild", "every:10"}, {"misses no pair"});
 }
 
-TEST(Usage, OptionsThatAreNotAvailableYet) {
-    expectUsageError({"--screenshot", "shot.png"}, {"--screenshot", "yet"});
+TEST(Usage, NoScreenshotWithoutAWindow) {
+    expectUsageError({"--screenshot", "shot.png"}, {"--screenshot", "--headless"});
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+#include "app/window/input.hpp"
+
+#include <cmath>
+
+#include "app/window/keys.hpp"
+#include "app/window/picking.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+/// A click that moves no farther than this is no drag, points.
+constexpr double clickPoints = 3;
+/// Bodies may be this far from where a click points, points.
+constexpr double pickPoints = 4;
+constexpr double wheelFactor = 1.15;
+
+}  // namespace
+
+void Input::press(const SDL_MouseButtonEvent& event) {
+    held_ = true;
+    dragged_ = false;
+    pressedAt_ = Vec2(event.x, event.y);
+}
+
+void Input::release(const SDL_MouseButtonEvent& event, const ScreenRect& rect, Workbench& bench,
+                    const ViewState& view) {
+    const bool click = held_ && !dragged_ && event.button == SDL_BUTTON_LEFT;
+    held_ = false;
+    if (!click) return;
+    bench.select(bodyAt(bench.simulation().world(),
+                        view.camera.toWorld(Vec2(event.x, event.y), rect),
+                        pickPoints / view.camera.zoom()));
+}
+
+void Input::handle(const SDL_Event& event, const ScreenRect& rect, const Gui& gui, Workbench& bench,
+                   ViewState& view) {
+    switch (event.type) {
+        case SDL_QUIT:
+            view.quit = true;
+            break;
+        case SDL_KEYDOWN:
+            if (!gui.wantsKeyboard()) pressKey(event.key, bench, view);
+            break;
+        case SDL_MOUSEBUTTONDOWN:
+            if (!gui.wantsMouse() && rect.contains(Vec2(event.button.x, event.button.y))) {
+                press(event.button);
+            }
+            break;
+        case SDL_MOUSEBUTTONUP:
+            release(event.button, rect, bench, view);
+            break;
+        case SDL_MOUSEMOTION:
+            mouse_ = Vec2(event.motion.x, event.motion.y);
+            if (!held_) break;
+            if (!dragged_ && (mouse_ - pressedAt_).cwiseAbs().maxCoeff() > clickPoints) {
+                dragged_ = true;
+                view.pan(mouse_ - pressedAt_);
+            } else if (dragged_) {
+                view.pan(Vec2(event.motion.xrel, event.motion.yrel));
+            }
+            break;
+        case SDL_MOUSEWHEEL:
+            if (gui.wantsMouse() || !rect.contains(mouse_)) break;
+            view.zoomAt(mouse_, std::pow(wheelFactor, double(event.wheel.preciseY)), rect);
+            break;
+        case SDL_DROPFILE:
+            bench.open(event.drop.file);
+            SDL_free(event.drop.file);
+            break;
+        default:
+            break;
+    }
+}
+
+}  // namespace quadrille::app

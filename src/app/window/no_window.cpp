@@ -1,0 +1,9 @@
+#include <quadrille/error.hpp>
+
+#include "app/window/run_window.hpp"
+
+namespace quadrille::app {
+
+void runWindow(const Options&) { throw Error("this build has no window; use --headless"); }
+
+}  // namespace quadrille::app

@@ -1,0 +1,296 @@
+#include "app/window/run_window.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <epoxy/gl.h>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/interrupt.hpp"
+#include "app/window/body_colors.hpp"
+#include "app/window/box_layer.hpp"
+#include "app/window/cell_layer.hpp"
+#include "app/window/gui.hpp"
+#include "app/window/input.hpp"
+#include "app/window/panels.hpp"
+#include "app/window/screenshot.hpp"
+#include "app/window/sdl_window.hpp"
+#include "app/window/text.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Seconds between two pictures at least: with vsync the screen sets the pace, and this only stops
+/// a driver that does not wait.
+constexpr double withVsync = 1.0 / 240, withoutVsync = 1.0 / 60;
+
+/// Pictures that the panels may need to react to an input.
+constexpr int settlingPictures = 4;
+constexpr int restMilliseconds = 200;
+
+constexpr double pageZoom = 1.25;
+
+class WindowRun {
+  public:
+    explicit WindowRun(const Options& options);
+    void loop();
+
+  private:
+    void takeEvents();
+    void beginPanels();
+    void wait();
+    void moveCamera();
+    void showPicture(bool last);
+    void prepare(const Viewport& viewport);
+    void draw(const Viewport& viewport) const;
+    void takeScreenshots(bool last);
+    void finishPhase(ShowPhase phase);
+    void recordPhases();
+    void updateTitle();
+    ScreenRect rect() const { return worldRect(view_, gui_.scale(), size_.width, size_.height); }
+
+    const Options& options_;
+    Workbench bench_;  // first, so that a bad scene opens no window
+    ViewState view_;
+    SdlWindow window_;
+    Gui gui_;
+    BoxLayer boxes_;
+    CellLayer cells_;
+    BodyColors colors_;
+    Input input_;
+    std::vector<SDL_Event> events_;  // of this picture
+    Measures measures_;
+    PhaseHistory history_;
+
+    SdlWindow::Size size_;
+    bool vsync_ = false, hasVsync_ = false;  // what was asked for, and what the driver does
+    Clock::time_point pictureStart_, phaseStart_;
+    std::array<double, showPhaseCount> phases_{};                       // s, of this picture
+    std::uint64_t runVersion_ = 0, cellsVersion_ = 0, stepsShown_ = 0;  // of what the layers hold
+    int idlePictures_ = 0;                                              // since the last event
+    ColorBy colorBy_ = ColorBy::Entity;
+    Clock::time_point titleTime_;
+};
+
+WindowRun::WindowRun(const Options& options)
+    : options_(options),
+      bench_(options),
+      window_(options.window.width, options.window.height),
+      gui_(window_),
+      size_(window_.size()) {
+    view_.overlays = options.window.overlays;
+    view_.colorBy = options.window.colorBy;
+    view_.vsync = options.window.vsync;
+    vsync_ = view_.vsync;
+    hasVsync_ = window_.setVsync(vsync_);
+    bench_.watchContacts(view_.overlays.contacts);
+    bench_.session().statistics().shown = Shown{
+        .width = size_.pixelWidth, .height = size_.pixelHeight, .renderer = window_.renderer()};
+}
+
+void WindowRun::loop() {
+    pictureStart_ = Clock::now();
+    while (true) {
+        const double elapsed = secondsSince(pictureStart_);
+        pictureStart_ = Clock::now();
+        phases_ = {};
+        takeEvents();
+        beginPanels();
+        for (const SDL_Event& event : events_) input_.handle(event, rect(), gui_, bench_, view_);
+        bench_.advance(elapsed);
+        const RunSession& session = bench_.session();
+        const bool last =
+            view_.quit || interrupted() || session.allFramesDone() || session.timeIsUp();
+        showPicture(last);
+        if (last) break;
+        wait();
+    }
+    bench_.session().finish();
+}
+
+void WindowRun::wait() {
+    if (bench_.speed() == 0 && !bench_.paused()) return;
+    const double interval = hasVsync_ ? withVsync : withoutVsync;
+    std::this_thread::sleep_until(pictureStart_ + std::chrono::duration_cast<Clock::duration>(
+                                                      std::chrono::duration<double>(interval)));
+    // Nothing moves, and the panels have settled: rest until the user does something.
+    const bool resting = bench_.paused() && ++idlePictures_ > settlingPictures;
+    if (resting) SDL_WaitEventTimeout(nullptr, restMilliseconds);
+}
+
+/// The panels say whose the mouse is, for one place of it in a picture: what happens after it has
+/// moved from the place of a click waits for the next.
+void WindowRun::takeEvents() {
+    events_.clear();
+    SDL_PumpEvents();
+    bool used = false;
+    SDL_Event event;
+    while (SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
+        if (used && event.type == SDL_MOUSEMOTION) break;
+        if (SDL_PollEvent(&event) == 0) break;
+        used |= event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP ||
+                event.type == SDL_MOUSEWHEEL;
+        events_.push_back(event);
+        gui_.processEvent(event);
+    }
+    if (!events_.empty()) idlePictures_ = 0;
+    size_ = window_.size();
+}
+
+void WindowRun::beginPanels() {
+    phaseStart_ = Clock::now();
+    for (; view_.scaleSteps != 0; view_.scaleSteps -= view_.scaleSteps > 0 ? 1 : -1) {
+        gui_.changeScale(view_.scaleSteps > 0);
+    }
+    if (view_.vsync != vsync_) {
+        vsync_ = view_.vsync;
+        hasVsync_ = window_.setVsync(vsync_);
+        if (vsync_ && !hasVsync_) bench_.say("this driver has no vsync");
+    }
+    gui_.beginFrame();
+    finishPhase(ShowPhase::Gui);
+}
+
+void WindowRun::moveCamera() {
+    if (view_.zoomSteps != 0) {
+        view_.zoomAt(rect().center(), std::pow(pageZoom, view_.zoomSteps), rect());
+        view_.zoomSteps = 0;
+    }
+    const World& world = bench_.simulation().world();
+    if (bench_.following()) {
+        view_.camera.center = world.get<Transform>(*bench_.selected()).position;
+        view_.fit = false;
+    } else if (view_.fit) {
+        const Vec2 half = world.config().size / 2;
+        view_.camera.fit({-half, half}, rect());
+    }
+}
+
+/// Ends a phase of showing a picture. With --profile it lasts until the driver has done its work;
+/// otherwise that may come later, in `present`.
+void WindowRun::finishPhase(ShowPhase phase) {
+    if (options_.profile && phase != ShowPhase::Prepare) glFinish();
+    const auto now = Clock::now();
+    phases_[static_cast<std::size_t>(phase)] +=
+        std::chrono::duration<double>(now - phaseStart_).count();
+    phaseStart_ = now;
+}
+
+void WindowRun::showPicture(bool last) {
+    phaseStart_ = Clock::now();
+    moveCamera();
+    measures_.update(bench_);
+    showPanels({bench_, view_, measures_, history_, gui_.scale(), size_.width, size_.height});
+    gui_.endFrame();
+    finishPhase(ShowPhase::Gui);
+
+    const Viewport viewport{view_.camera, rect(), size_.pixelRatio()};
+    prepare(viewport);
+    finishPhase(ShowPhase::Prepare);
+    draw(viewport);
+    finishPhase(ShowPhase::Draw);
+    glViewport(0, 0, size_.pixelWidth, size_.pixelHeight);
+    gui_.draw();
+    finishPhase(ShowPhase::Gui);
+    takeScreenshots(last);
+    updateTitle();
+    phaseStart_ = Clock::now();
+    window_.present();
+    finishPhase(ShowPhase::Present);
+    recordPhases();
+}
+
+void WindowRun::prepare(const Viewport& viewport) {
+    const Simulation& simulation = bench_.simulation();
+    boxes_.prepare(simulation.world(), viewport);
+    const bool otherRun = runVersion_ != bench_.runVersion();
+    const bool otherCells = cellsVersion_ != bench_.cellsVersion();
+    const bool otherSteps = stepsShown_ != simulation.stepsDone();
+    const bool otherRows = boxes_.rowsChanged() || otherRun;
+    if (otherRows) colors_.readEntities(simulation.world());
+    const bool otherColors = colorBy_ != view_.colorBy ||
+                             (view_.colorBy == ColorBy::Speed && otherSteps) ||
+                             (view_.colorBy == ColorBy::Cell && otherCells);
+    if (otherRows || otherColors) boxes_.setColors(colors_.update(simulation, view_.colorBy));
+    if (otherCells) cells_.prepare(simulation.cells());
+    runVersion_ = bench_.runVersion();
+    cellsVersion_ = bench_.cellsVersion();
+    stepsShown_ = simulation.stepsDone();
+    colorBy_ = view_.colorBy;
+}
+
+void WindowRun::draw(const Viewport& viewport) const {
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.051f, 0.063f, 0.078f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const double ratio = viewport.pixelRatio;
+    const auto pixels = [&](double points) {
+        return static_cast<GLint>(std::lround(points * ratio));
+    };
+    glViewport(pixels(viewport.view.x), 0, pixels(viewport.view.width), size_.pixelHeight);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    cells_.draw(viewport, view_.overlays);
+    // Where cells are crowded, their bodies would hide how crowded.
+    boxes_.draw(viewport, view_.overlays.heatMap ? 0.5 : 1);
+}
+
+void WindowRun::takeScreenshots(bool last) {
+    const bool asked = last && !options_.window.screenshot.empty();
+    if (!asked && !view_.screenshot) return;
+    const Picture picture = readFramebuffer(size_.pixelWidth, size_.pixelHeight);
+    if (asked) writePng(options_.window.screenshot, picture);
+    if (!view_.screenshot) return;
+    view_.screenshot = false;
+    const std::string file = bench_.session().run().scene + "-" +
+                             std::to_string(bench_.simulation().stepsDone()) + ".png";
+    try {
+        writePng(file, picture);
+        bench_.say("wrote " + file);
+    } catch (const Error& error) {
+        bench_.say(error.what(), true);
+    }
+}
+
+void WindowRun::recordPhases() {
+    Shown& shown = *bench_.session().statistics().shown;
+    shown.width = size_.pixelWidth;
+    shown.height = size_.pixelHeight;
+    ++shown.pictures;
+    PhaseHistory::Row row{};
+    const auto steps = bench_.takePhases();
+    for (std::size_t i = 0; i < phaseCount; ++i) row[i] = static_cast<float>(1e3 * steps[i]);
+    for (std::size_t i = 0; i < showPhaseCount; ++i) {
+        shown.seconds[i] += phases_[i];
+        row[phaseCount + i] = static_cast<float>(1e3 * phases_[i]);
+    }
+    history_.add(row);
+}
+
+/// "balanced, step 120, paused", a few times a second while it runs.
+void WindowRun::updateTitle() {
+    if (!bench_.paused() && secondsSince(titleTime_) < 0.25) return;
+    titleTime_ = Clock::now();
+    window_.setTitle(bench_.session().run().scene + ", step " +
+                     grouped(bench_.simulation().stepsDone()) +
+                     (bench_.paused() ? ", paused" : "") + " - collisionStress");
+}
+
+}  // namespace
+
+void runWindow(const Options& options) {
+    WindowRun run(options);
+    run.loop();
+}
+
+}  // namespace quadrille::app

@@ -1,0 +1,244 @@
+#include "app/window/workbench.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "app/window/body_colors.hpp"
+
+namespace quadrille::app {
+
+namespace {
+
+/// Steps of one picture may take this long; then it is shown, and the rest is dropped.
+constexpr std::chrono::milliseconds longestStepping{40};
+
+}  // namespace
+
+Workbench::Workbench(const Options& options)
+    : pacer_(1, options.window.speed), paused_(options.window.paused) {
+    start(setUp(options), options);
+}
+
+void Workbench::start(Run run, Options options) {
+    ensureRenderers(run.simulation.world());
+    // The panels show the phases of every step.
+    SimulationConfig config = run.simulation.config();
+    config.profile = true;
+    run.simulation.reconfigure(config);
+    // Outputs have one writer: the old session's go before the new one's come.
+    std::optional<Shown> shown;
+    if (session_) shown = session_->statistics().shown;
+    session_.reset();
+    options_ = std::make_unique<Options>(std::move(options));
+    session_ = std::make_unique<RunSession>(std::move(run), *options_);
+    session_->statistics().shown = std::move(shown);
+    pacer_ = Pacer(config.dt, pacer_.speed());
+    listening_ = false;
+    contacts_.clear();
+    lastStep_ = {};
+    selected_.reset();
+    following_ = false;
+    watchContacts(watching_);
+    ++cellsVersion_;
+    ++runVersion_;
+}
+
+// ---- time
+
+void Workbench::togglePause() {
+    paused_ = !paused_;
+    pacer_.drop();
+}
+
+void Workbench::singleStep() {
+    paused_ = true;
+    if (!done()) step();
+}
+
+void Workbench::setSpeed(double speed) {
+    pacer_.setSpeed(speed);
+    pacer_.drop();
+}
+
+void Workbench::changeSpeed(bool faster) {
+    const auto rank = [](double speed) {
+        return speed == 0 ? std::numeric_limits<double>::infinity() : speed;
+    };
+    const double now = rank(speed());
+    if (faster) {
+        for (const double candidate : offeredSpeeds) {
+            if (rank(candidate) > now) return setSpeed(candidate);
+        }
+    } else {
+        for (auto it = std::rbegin(offeredSpeeds); it != std::rend(offeredSpeeds); ++it) {
+            if (rank(*it) < now) return setSpeed(*it);
+        }
+    }
+}
+
+int Workbench::advance(double seconds) {
+    if (paused_) return 0;
+    pacer_.pass(seconds);
+    const auto start = Clock::now();
+    int steps = 0;
+    while (!done() && pacer_.take(steps)) {
+        step();
+        ++steps;
+        if (Clock::now() - start > longestStepping) {
+            pacer_.drop();
+            break;
+        }
+    }
+    return steps;
+}
+
+void Workbench::step() {
+    contacts_.clear();
+    const bool onDevice = config().resolver == ResolverKind::Cuda;
+    lastStep_ = session_->step();
+    if (onDevice && config().resolver != ResolverKind::Cuda) sayFallback();
+    cellsVersion_ += lastStep_.rebuilt;
+    for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
+}
+
+std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(phases_, {}); }
+
+// ---- the run
+
+void Workbench::reset() { restart(*options_, "started anew"); }
+
+void Workbench::open(const std::string& sceneFile) {
+    Options options = *options_;
+    options.scene = sceneFile;
+    options.load.clear();
+    // What the command line says of the first scene does not hold for this one.
+    options.entities.reset();
+    options.seed.reset();
+    options.dt.reset();
+    options.restitution.reset();
+    restart(std::move(options), "opened " + sceneFile);
+}
+
+void Workbench::restart(Options options, const std::string& success) {
+    options.partitioner = config().partitioner;
+    options.law = config().law;
+    options.resolver = session_->run().requestedResolver;
+    std::optional<Run> run;
+    try {
+        run = setUp(options);
+    } catch (const std::exception& error) {
+        say(error.what(), true);
+        return;
+    }
+    start(std::move(*run), std::move(options));
+    say(success);
+}
+
+void Workbench::apply(SimulationConfig config) {
+    config.countMissedPairs = options_->error || mayMissPairs(config.partitioner);
+    // Here nothing is gained by a fallback: what runs can go on.
+    if (config.resolver == ResolverKind::Cuda && this->config().resolver != ResolverKind::Cuda) {
+        const CudaDevice device = findCudaDevice();
+        if (!device.usable()) throw DeviceError("cuda: " + device.reason);
+    }
+    session_->simulation().reconfigure(config);
+    ++cellsVersion_;
+}
+
+void Workbench::reconfigure(SimulationConfig config) {
+    const ResolverKind before = this->config().resolver;
+    std::string reason;
+    try {
+        apply(config);
+        if (config.resolver != before) session_->run().requestedResolver = name(config.resolver);
+        if (config.resolver != this->config().resolver) sayFallback();
+        return;
+    } catch (const std::exception& error) {
+        reason = error.what();
+    }
+    // A law may not run where the one before did; a resolver that was not chosen just now gives
+    // way.
+    if (config.resolver == before && before != ResolverKind::Sequential) {
+        config.resolver = ResolverKind::Sequential;
+        try {
+            apply(config);
+            reason += "; running 'sequential'";
+        } catch (const std::exception& error) {
+            reason = error.what();
+        }
+    }
+    say(reason, true);
+}
+
+void Workbench::setPartitioner(const PartitionerConfig& partitioner) {
+    SimulationConfig next = config();
+    next.partitioner = partitioner;
+    reconfigure(std::move(next));
+}
+
+void Workbench::nextLaw() {
+    SimulationConfig next = config();
+    next.law = static_cast<Law>((static_cast<int>(next.law) + 1) % 3);
+    reconfigure(std::move(next));
+}
+
+void Workbench::nextResolver() {
+    constexpr int kinds = 4;
+    for (int i = 1; i < kinds; ++i) {
+        SimulationConfig next = config();
+        next.resolver = static_cast<ResolverKind>((static_cast<int>(next.resolver) + i) % kinds);
+        const std::string resolver(name(next.resolver));
+        try {
+            apply(next);
+        } catch (const std::exception&) {
+            continue;  // not here, or not with this law
+        }
+        session_->run().requestedResolver = resolver;
+        say("runs on " + resolver);
+        return;
+    }
+    say("no other resolver can run this");
+}
+
+// ---- looking closer
+
+void Workbench::select(std::optional<Entity> entity) {
+    selected_ = entity;
+    if (!entity) following_ = false;
+    watchContacts(watching_);
+}
+
+std::optional<Entity> Workbench::selected() const {
+    if (selected_ && simulation().world().alive(*selected_)) return selected_;
+    return std::nullopt;
+}
+
+void Workbench::toggleFollow() { following_ = !following_ && selected(); }
+
+void Workbench::watchContacts(bool wanted) {
+    watching_ = wanted;
+    // A simulation with a listener hands out every contact; it gets one when there is a use.
+    if (listening_ || !(watching_ || selected_)) return;
+    listening_ = true;
+    session_->simulation().onContact([this](const Contact& contact) {
+        if (watching_ || selected_) contacts_.push_back(contact);
+    });
+}
+
+void Workbench::sayFallback() {
+    say(session_->simulation().resolverFailure() + "; running 'sequential'", true);
+}
+
+void Workbench::say(std::string text, bool isError) {
+    const auto shown = std::chrono::seconds(isError ? 8 : 3);
+    message_ = {std::move(text), isError, Clock::now() + shown};
+}
+
+const Workbench::Message* Workbench::message() const {
+    return Clock::now() < message_.until ? &message_ : nullptr;
+}
+
+}  // namespace quadrille::app

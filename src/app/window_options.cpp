@@ -1,0 +1,105 @@
+#include "app/window_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace quadrille::app {
+
+namespace {
+
+constexpr int leastSide = 64, mostSide = 16384;
+
+/// The number at the start of `text`, which is cut off; -1 if there is none in the valid range.
+int takeSide(std::string_view& text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || value < leastSide || value > mostSide) return -1;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
+bool parseSize(std::string_view text, int& width, int& height) {
+    width = takeSide(text);
+    if (width < 0 || text.empty() || text.front() != 'x') return false;
+    text.remove_prefix(1);
+    height = takeSide(text);
+    return height >= 0 && text.empty();
+}
+
+/// A factor from 1/64 to 64, or "max"; not a number if it is neither.
+double parseSpeed(std::string_view text) {
+    if (text == "max") return 0;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool valid = error == std::errc() && end == text.data() + text.size() &&
+                       value >= 1.0 / 64 && value <= 64;
+    return valid ? value : std::nan("");
+}
+
+}  // namespace
+
+void declareWindowOptions(CLI::App& app, WindowOptions& options) {
+    const char* const group = "Window";
+    const auto refuse = [](const char* option, const std::string& text, const std::string& reason) {
+        throw CLI::ValidationError(option, "'" + text + "' " + reason);
+    };
+    app.add_option_function<std::string>(
+           "--window-size",
+           [&options, refuse](const std::string& text) {
+               if (parseSize(text, options.width, options.height)) return;
+               refuse("--window-size", text, "is not WIDTHxHEIGHT with sides from 64 to 16384");
+           },
+           "Size of the window (1280x720)")
+        ->type_name("WxH")
+        ->group(group);
+    app.add_flag("--paused", options.paused, "Start paused")->group(group);
+    app.add_option_function<std::string>(
+           "--speed",
+           [&options, refuse](const std::string& text) {
+               options.speed = parseSpeed(text);
+               if (std::isnan(options.speed)) {
+                   refuse("--speed", text, "is neither a number from 1/64 to 64 nor max");
+               }
+           },
+           "Seconds of the simulation per second, or max: a step in every picture (1)")
+        ->type_name("FACTOR")
+        ->group(group);
+    app.add_option_function<std::vector<std::string>>(
+           "--show",
+           [&options](const std::vector<std::string>& names) {
+               for (const std::string& name : names) {
+                   options.overlays.gridlines |= name == "gridlines";
+                   options.overlays.heatMap |= name == "heat-map";
+                   options.overlays.contacts |= name == "contacts";
+               }
+           },
+           "gridlines, heat-map, contacts, or several of them")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"gridlines", "heat-map", "contacts"}))
+        ->type_name("WHAT,...")
+        ->group(group);
+    const std::map<std::string, ColorBy> colors = {
+        {"entity", ColorBy::Entity}, {"speed", ColorBy::Speed}, {"cell", ColorBy::Cell}};
+    app.add_option_function<std::string>(
+           "--color-by",
+           [&options, colors](const std::string& name) { options.colorBy = colors.at(name); },
+           "entity, speed or cell (entity)")
+        ->check(CLI::IsMember(colors))
+        ->type_name("WHAT")
+        ->group(group);
+    app.add_flag("!--no-vsync", options.vsync, "Show pictures without waiting for the screen")
+        ->group(group);
+    app.add_option("--screenshot", options.screenshot, "Write the last frame shown as PNG")
+        ->check([](const std::string& text) {
+            return text.empty() ? std::string("is empty") : std::string();
+        })
+        ->type_name("FILE")
+        ->group(group);
+}
+
+}  // namespace quadrille::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace quadrille::app {
+
+/// What the colour of a body stands for.
+enum class ColorBy : std::uint8_t { Entity, Speed, Cell };
+
+/// What is drawn beside the bodies.
+struct Overlays {
+    bool gridlines = false;
+    bool heatMap = false;
+    bool contacts = false;
+};
+
+/// The part of the command line that concerns the window.
+struct WindowOptions {
+    int width = 1280, height = 720;  ///< points
+    bool paused = false;
+    double speed = 1;  ///< seconds of the simulation per second; 0 for a step in every picture
+    bool vsync = true;
+    Overlays overlays;
+    ColorBy colorBy = ColorBy::Entity;
+    std::string screenshot;  ///< file name, or empty
+};
+
+/// Adds the options of the group "Window".
+void declareWindowOptions(CLI::App& app, WindowOptions& options);
+
+}  // namespace quadrille::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+
+#include "program.hpp"
+#include "screen.hpp"
+
+namespace quadrille {
+
+/// Tests of the program in a window on a screen of their own, 1280 x 720 points, which the window
+/// fills. They wait for what they expect and never for a time.
+class WindowTest : public ProgramTest {
+  protected:
+    static constexpr int width = 1280, height = 720;
+    static constexpr int panelWidth = 300;
+    static constexpr Rgb background{13, 16, 20};
+
+    /// Starts the screen; the test is skipped where there is no Xvfb.
+    void SetUp() override;
+
+    /// Starts the program on the screen.
+    void start(const Arguments& arguments);
+    /// The same, paused, with this scene; returns when it has shown its first picture.
+    void startPaused(const std::string& scene, const Arguments& arguments = {});
+
+    bool titleHas(const std::string& part);
+    /// Until the pixel has this colour.
+    bool shows(int x, int y, const Rgb& color);
+    /// Where a place of a world of this size stands on the screen while all of it is shown.
+    struct Place {
+        int x, y;
+    };
+    static Place placeOf(double worldWidth, double worldHeight, double x, double y);
+
+    /// Ends the program by its close button, which must succeed.
+    ProcessResult close();
+
+    std::unique_ptr<Screen> screen_;
+    std::unique_ptr<Process> program_;
+};
+
+}  // namespace quadrille
