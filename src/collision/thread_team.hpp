@@ -67,7 +67,8 @@ class ThreadTeam {
         }
         std::atomic<std::size_t> next{0};
         run(workers, [&](unsigned worker) {
-            for (std::size_t begin; (begin = next.fetch_add(block)) < count;) {
+            for (std::size_t begin;
+                 (begin = next.fetch_add(block, std::memory_order_relaxed)) < count;) {
                 function(begin, std::min(count, begin + block), worker);
             }
         });
