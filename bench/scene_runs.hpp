@@ -26,9 +26,9 @@ struct Variant {
     int threads = 0;  ///< 0: one for each core
     CudaOptions cuda{};
     bool profile = false;
-    std::string label;                   ///< what `change` makes of the scene
-    std::function<void(Scene&)> change;  ///< applied to the scene before it runs
-    bool listener = false;               ///< somebody listens to contacts
+    std::string label{};                   ///< what `change` makes of the scene
+    std::function<void(Scene&)> change{};  ///< applied to the scene before it runs
+    bool listener = false;                 ///< somebody listens to contacts
 };
 
 /// A scene and the variants that are compared on it.
@@ -37,7 +37,7 @@ struct SceneRuns {
     std::optional<std::uint64_t> entities;  ///< replaces the count of the first spawn group
     std::vector<Variant> variants;
     std::size_t frames = 200;
-    std::optional<double> dt;  ///< s; the scene's
+    std::optional<double> dt{};  ///< s; the scene's
 };
 
 /// What all scenes of a run share.
