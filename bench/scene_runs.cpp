@@ -25,7 +25,12 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
     if (runs.dt) scene.step.dt = *runs.dt;
     if (variant.change) variant.change(scene);
     const StepSettings step = scene.step;
-    Measurement result{.variant = variant, .scene = scene.name, .times = {}, .energyDrift = {}};
+    Measurement result{.variant = variant,
+                       .scene = scene.name,
+                       .times = {},
+                       .phaseMilliseconds = {},
+                       .energyDrift = {},
+                       .cells = {}};
 
     Simulation simulation(std::move(scene.world), {.partitioner = variant.partitioner,
                                                    .law = variant.law,
@@ -34,7 +39,9 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
                                                    .threads = variant.threads,
                                                    .dt = step.dt,
                                                    .gravity = step.gravity,
-                                                   .restitution = step.restitution});
+                                                   .restitution = step.restitution,
+                                                   .profile = variant.profile,
+                                                   .cuda = variant.cuda});
     if (variant.listener) simulation.onContact([](const Contact&) {});
     const World& world = simulation.world();
     const double energyAtStart = totalEnergy(world, step.gravity);
@@ -48,6 +55,9 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
         pairs += report.pairsTested;
         contacts += report.contacts;
         rebuilds += report.rebuilt;
+        for (std::size_t i = 0; i < phaseCount; ++i) {
+            result.phaseMilliseconds[i] += 1e3 * report.phaseSeconds[i] / double(runs.frames);
+        }
     });
 
     const double frames = double(runs.frames);
@@ -61,6 +71,7 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
         result.energyDrift = gain / std::abs(energyAtStart);
     }
     result.bytesPerBody = double(world.bytes() + simulation.workspaceBytes()) / bodies;
+    result.cells = load(simulation.cells());
     result.stateHash = stateHash(world);
     return {std::move(result), std::move(milliseconds)};
 }
@@ -89,7 +100,10 @@ std::vector<Measurement> measure(const SceneRuns& runs, const Protocol& protocol
             if (repeats[i].size() < repeat) continue;  // left out in the first turn
             try {
                 repeats[i].push_back(runOnce(runs, runs.variants[i], protocol.warmup));
-            } catch (const NotAvailable& reason) {
+            } catch (const Error& reason) {
+                const bool missing = dynamic_cast<const NotAvailable*>(&reason) != nullptr ||
+                                     dynamic_cast<const DeviceError*>(&reason) != nullptr;
+                if (!missing) throw;
                 std::cerr << runs.scene << ", " << specOf(runs.variants[i].partitioner)
                           << ": left out: " << reason.what() << '\n';
             }

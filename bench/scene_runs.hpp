@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -22,10 +23,12 @@ struct Variant {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
-    int threads = 0;                     ///< 0: one for each core
-    std::string label;                   ///< what `change` makes of the scene
-    std::function<void(Scene&)> change;  ///< applied to the scene before it runs
-    bool listener = false;               ///< somebody listens to contacts
+    int threads = 0;  ///< 0: one for each core
+    CudaOptions cuda{};
+    bool profile = false;
+    std::string label{};                   ///< what `change` makes of the scene
+    std::function<void(Scene&)> change{};  ///< applied to the scene before it runs
+    bool listener = false;                 ///< somebody listens to contacts
 };
 
 /// A scene and the variants that are compared on it.
@@ -34,7 +37,7 @@ struct SceneRuns {
     std::optional<std::uint64_t> entities;  ///< replaces the count of the first spawn group
     std::vector<Variant> variants;
     std::size_t frames = 200;
-    std::optional<double> dt;  ///< s; the scene's
+    std::optional<double> dt{};  ///< s; the scene's
 };
 
 /// What all scenes of a run share.
@@ -48,11 +51,13 @@ struct Measurement {
     std::string scene;
     std::size_t bodies = 0;  ///< that move
     FrameTimes times;
+    std::array<double, phaseCount> phaseMilliseconds{};  ///< mean a frame; only with a profile
     double pairsPerBody = 0;
     double contactsPerFrame = 0;
     double rebuildsPer100 = 0;
     std::optional<double> energyDrift;  ///< relative; none where energy is not conserved
     double bytesPerBody = 0;
+    CellLoad cells;  ///< of the last frame
     std::uint64_t stateHash = 0;
 
     double nsPerBody(double milliseconds) const { return 1e6 * milliseconds / double(bodies); }

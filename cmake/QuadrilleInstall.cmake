@@ -41,6 +41,14 @@ if(core_type STREQUAL STATIC_LIBRARY)
   endif()
 endif()
 
+if(TARGET quadrille_cuda)
+  install(TARGETS quadrille_cuda EXPORT quadrilleTargets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  if(core_type STREQUAL STATIC_LIBRARY)
+    string(APPEND QUADRILLE_PRIVATE_DEPENDENCIES "find_dependency(CUDAToolkit)\n")
+  endif()
+endif()
+
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/quadrille-config.cmake.in
   ${PROJECT_BINARY_DIR}/quadrille-config.cmake INSTALL_DESTINATION ${package_dir})

@@ -98,7 +98,9 @@ struct BodyView {
         std::span<const std::uint32_t> entity;
         std::size_t size() const { return x.size(); }
     } fixed;
-    /// Changes whenever rows were added, removed or edited from outside the simulation.
+    /// Changes whenever rows were added, removed or edited from outside the simulation. Resolvers
+    /// on a device keep copies by it, so who writes through this view must call
+    /// World::bodiesEdited(); World::set, add and remove do it themselves.
     std::uint64_t revision = 0;
 
     std::size_t size() const { return moving.size() + fixed.size(); }

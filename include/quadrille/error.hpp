@@ -22,6 +22,12 @@ class SnapshotError : public Error {
     using Error::Error;
 };
 
+/// A device that is missing, out of memory or lost.
+class DeviceError : public Error {
+  public:
+    using Error::Error;
+};
+
 /// A combination of options that this version or build cannot run.
 class NotAvailable : public Error {
   public:

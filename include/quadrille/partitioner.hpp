@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include <quadrille/cell_coordinates.hpp>
 #include <quadrille/vec2.hpp>
 
 namespace quadrille {
@@ -54,12 +55,6 @@ std::string name(const PartitionerConfig& config);
 /// A rectangle in px.
 struct Bounds {
     Vec2 low{0, 0}, high{0, 0};
-};
-
-/// The square of fine cells that a cell of the partition covers: [x, x + 2^shift) on each axis.
-struct CellCoordinates {
-    std::uint16_t x = 0, y = 0;
-    std::uint8_t shift = 0;
 };
 
 /// Cells in compressed sparse rows: cell c holds bodies[offsets[c] .. offsets[c + 1]), moving

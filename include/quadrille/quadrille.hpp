@@ -5,6 +5,7 @@
 #include <quadrille/bodies.hpp>
 #include <quadrille/components.hpp>
 #include <quadrille/contact.hpp>
+#include <quadrille/device.hpp>
 #include <quadrille/entity.hpp>
 #include <quadrille/error.hpp>
 #include <quadrille/measure.hpp>

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include <quadrille/bodies.hpp>
 #include <quadrille/contact.hpp>
+#include <quadrille/cuda_options.hpp>
 #include <quadrille/partitioner.hpp>
 #include <quadrille/vec2.hpp>
 #include <quadrille/world.hpp>
@@ -36,7 +38,7 @@ struct SimulationConfig {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
-    int threads = 0;                ///< of ResolverKind::Threads; 0: one for each core
+    int threads = 0;                ///< of Threads, and of Cuda on the host; 0: one for each core
     double dt = 1.0 / 60;           ///< s
     Vec2 gravity{0, 0};             ///< px/s^2
     double restitution = 1;         ///< in [0, 1]
@@ -44,11 +46,24 @@ struct SimulationConfig {
     bool countMissedPairs = false;  ///< compare the broad phase with a complete one in each step
     /// With countMissedPairs: in the first step, and in about one of so many.
     std::uint64_t missedPairsEvery = 1;
+    CudaOptions cuda{};
+    /// A device that is missing or fails is replaced by the resolver `sequential`, which gives the
+    /// same result; otherwise it is a DeviceError.
+    bool fallback = false;
 };
 
-/// The phases of a step, in the order in which they run.
-enum class Phase : std::uint8_t { Integrate, Partition, Resolve, Observe };
-inline constexpr std::size_t phaseCount = 4;
+/// The phases of a step, in the order in which they run. Those between Partition and Observe, but
+/// for Resolve, take time only where a device resolves.
+enum class Phase : std::uint8_t {
+    Integrate,
+    Partition,
+    Flatten,       ///< what the device needs is gathered
+    CopyToDevice,  ///< and copied there
+    Resolve,
+    CopyToHost,
+    Observe,
+};
+inline constexpr std::size_t phaseCount = 7;
 
 struct StepReport {
     std::uint64_t step = 0;         ///< number of the step that ended, from 1
@@ -85,20 +100,24 @@ struct ModelFeatures {
 /// pairs), the clock or the number of steps asked for at once.
 class Simulation {
   public:
-    /// Throws Error for impossible values and NotAvailable for combinations that this version
-    /// cannot run.
+    /// Throws Error for impossible values, NotAvailable for combinations that this version cannot
+    /// run and, without SimulationConfig::fallback, DeviceError if a device is missing.
     explicit Simulation(World world, SimulationConfig config = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// One step. Throws Error if a position stops being finite.
+    /// One step. Throws Error if a position stops being finite and, without
+    /// SimulationConfig::fallback, DeviceError if a device fails.
     const StepReport& step();
     void run(std::uint64_t steps);
 
     World& world();
     const World& world() const;
+    /// What runs now: after a fallback, with the resolver `sequential`.
     const SimulationConfig& config() const;
+    /// Why another resolver was replaced by `sequential`; empty if none was.
+    const std::string& resolverFailure() const;
 
     std::uint64_t stepsDone() const;
     double time() const;  ///< s, stepsDone * dt

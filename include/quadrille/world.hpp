@@ -189,6 +189,9 @@ class World {
     template <class Real>
     BodyView<Real> bodies();
 
+    /// To be called after writing through a view of the bodies.
+    void bodiesEdited() { ++revision_; }
+
     /// Calls `function(BodyView<Real>)` with the world's precision.
     template <class Function>
     decltype(auto) visitBodies(Function&& function) {

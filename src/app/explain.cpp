@@ -63,7 +63,7 @@ void list(std::ostream& out) {
     out << "scenes:";
     for (const std::string& scene : sceneNames()) out << ' ' << scene;
     out << "\npartitioners: brute-force static-grid quadtree semi-static-quadtree"
-        << "\nresolvers: sequential threads"
+        << "\nresolvers: sequential threads cuda"
         << "\nlaws: baseline impulse continuous"
         << "\nprecisions: double float\n";
 }

@@ -86,14 +86,21 @@ class ProgressLine {
 
 void runHeadless(Run run, const Options& options) {
     RunSession session(std::move(run), options);
+    const Simulation& simulation = session.simulation();
     const RunStatistics& statistics = session.statistics();
-    PeriodicReport report(wordsOf(options), session.simulation(), session.start().total);
+    PeriodicReport report(wordsOf(options), simulation, session.start().total);
     ProgressLine progress(options.frames);
+    bool deviceFailed = !simulation.resolverFailure().empty();
     auto lastReport = Clock::now();
     auto lastProgress = lastReport;
     while (!session.allFramesDone() && !interrupted()) {
         session.step();
         const auto now = Clock::now();
+        if (!deviceFailed && !simulation.resolverFailure().empty()) {
+            progress.wipe();
+            warnOfFallback(simulation);
+            deviceFailed = true;
+        }
         if (secondsBetween(lastProgress, now) >= 0.2) {
             progress.show(statistics.frames());
             lastProgress = now;

@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
         return app::fail(error.what(), app::usageError);
     } catch (const app::NoDevice& error) {
         return app::fail(error.what(), app::noDevice);
+    } catch (const DeviceError& error) {
+        return app::fail(error.what(), app::noDevice);
     } catch (const SceneError& error) {
         return app::fail(error.what(), app::badInput);
     } catch (const SnapshotError& error) {

@@ -25,6 +25,7 @@ struct RawOptions {
     int maxPerCell = 20;
     std::string rebuild = "skin";
     std::string law, precision;
+    std::string cudaThread = "body";
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -91,6 +92,16 @@ CLI::Validator finiteNumber(bool (*valid)(double), std::string range) {
 const auto positiveNumber = [] {
     return finiteNumber([](double value) { return value > 0; }, "above 0");
 };
+
+const CLI::Validator blockSize(
+    [](std::string& text) -> std::string {
+        int value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc() && end == text.data() + text.size();
+        if (number && value >= 32 && value <= 1024 && value % 32 == 0) return {};
+        return "'" + text + "' is not a multiple of 32 from 32 to 1024";
+    },
+    "");
 
 const CLI::Validator fileName(
     [](std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
@@ -170,16 +181,31 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("POLICY")
         ->capture_default_str()
         ->group("Collisions");
-    app.add_option("--resolver", options.resolver,
-                   "auto (threads for many bodies, where there is more than one core), sequential, "
-                   "threads, cuda or cuda-resident")
+    app.add_option(
+           "--resolver", options.resolver,
+           "auto (cuda or threads for many bodies, where there is a device or more than one "
+           "core), sequential, threads, cuda or cuda-resident")
         ->check(CLI::IsMember({"auto", "sequential", "threads", "cuda", "cuda-resident"}))
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
-    app.add_option("--threads", options.threads, "Threads of the resolver 'threads' (all cores)")
+    app.add_option("--threads", options.threads,
+                   "Threads of the resolver 'threads', and of 'cuda' on the host (all cores)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N")
+        ->group("Collisions");
+    app.add_option("--block-size", options.cuda.blockSize,
+                   "Threads in a block of the resolver 'cuda', a multiple of 32")
+        ->check(blockSize)
+        ->type_name("N")
+        ->capture_default_str()
+        ->group("Collisions");
+    app.add_option("--cuda-thread", raw.cudaThread,
+                   "What a thread of the resolver 'cuda' looks after: a cell, as in the report, or "
+                   "a body in a cell")
+        ->check(CLI::IsMember({"cell", "body"}))
+        ->type_name("cell|body")
+        ->capture_default_str()
         ->group("Collisions");
     app.add_flag("!--no-fallback", options.fallback,
                  "A resolver that cannot run is an error, not a reason to run the sequential one")
@@ -268,6 +294,7 @@ void interpret(Options& options, const RawOptions& raw) {
     options.partitioner = makePartitionerConfig(raw);
     if (!raw.law.empty()) options.law = laws.at(raw.law);
     if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
+    options.cuda.threadPer = raw.cudaThread == "cell" ? CudaThread::Cell : CudaThread::Body;
     if (options.error && options.frames == 0) {
         throw UsageError("--error: there is nothing to compare after --frames 0");
     }

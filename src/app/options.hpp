@@ -28,6 +28,7 @@ struct Options {
     std::string resolver = "auto";
     std::optional<int> threads;
     bool fallback = true;
+    CudaOptions cuda;
     std::optional<Law> law;
     std::optional<Precision> precision;
     std::optional<double> dt;

@@ -38,27 +38,42 @@ Start loadStart(const Options& options) {
             .step = scene.step};
 }
 
+/// Moving bodies from which a device is faster than one core under the law `impulse`, measured on
+/// an H200 beside a Xeon (docs/cuda.md). A tree with a skin leaves little to do in most steps.
+std::size_t cudaPaysFrom(const PartitionerConfig& partitioner) {
+    const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
+    const bool skin =
+        tree != nullptr && std::holds_alternative<SemiStaticQuadtree::Skin>(tree->rebuild);
+    return skin ? 20'000 : 5'000;
+}
+
 /// From how many moving bodies on `auto` takes the threads: docs/performance.md has the figures.
 constexpr std::size_t threadsPayFrom = 10'000;
 
 ResolverKind chooseAutomatically(const SimulationConfig& config, std::size_t movingCount) {
+    if (config.law != Law::Impulse) return ResolverKind::Sequential;
+    // The device is looked for last: that takes longer than many a small run.
+    if (movingCount >= cudaPaysFrom(config.partitioner) && findCudaDevice().usable()) {
+        return ResolverKind::Cuda;
+    }
     const bool several = config.threads > 0 ? config.threads > 1 : Simulation::cores() > 1;
-    const bool pays = several && config.law == Law::Impulse && movingCount >= threadsPayFrom;
-    return pays ? ResolverKind::Threads : ResolverKind::Sequential;
+    return several && movingCount >= threadsPayFrom ? ResolverKind::Threads
+                                                    : ResolverKind::Sequential;
 }
 
 ResolverKind chooseResolver(const Options& options, const SimulationConfig& config,
                             std::size_t movingCount) {
     if (options.resolver == "auto") return chooseAutomatically(config, movingCount);
     if (options.resolver == "sequential") return ResolverKind::Sequential;
-    std::string reason = "the resolver '" + options.resolver + "' is not available yet";
-    if (options.resolver == "threads") {
-        if (config.law == Law::Impulse) return ResolverKind::Threads;
-        reason = "the law '" + std::string(name(config.law)) +
-                 "' does not run on the resolver 'threads'";
-    }
+    if (options.resolver == "threads" && config.law == Law::Impulse) return ResolverKind::Threads;
+    if (options.resolver == "cuda" && config.law != Law::Continuous) return ResolverKind::Cuda;
+    const std::string reason = options.resolver == "cuda-resident"
+                                   ? "the resolver 'cuda-resident' is not available yet"
+                                   : "the law '" + std::string(name(config.law)) +
+                                         "' does not run on the resolver '" + options.resolver +
+                                         "'";
     if (!options.fallback) {
-        if (options.resolver == "threads") throw NotAvailable(reason);
+        if (options.resolver != "cuda-resident") throw NotAvailable(reason);
         throw NoDevice(reason);
     }
     std::cerr << "collisionStress: warning: " << reason << "; running 'sequential'\n";
@@ -70,6 +85,11 @@ ResolverKind chooseResolver(const Options& options, const SimulationConfig& conf
 constexpr std::size_t mostAuditedInEveryFrame = 20'000;
 
 }  // namespace
+
+void warnOfFallback(const Simulation& simulation) {
+    std::cerr << "collisionStress: warning: the resolver 'cuda' cannot run ("
+              << simulation.resolverFailure() << "); running 'sequential'\n";
+}
 
 bool mayMissPairs(const PartitionerConfig& partitioner) {
     const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
@@ -93,11 +113,14 @@ Run setUp(const Options& options) {
     if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {
         config.missedPairsEvery = 10;
     }
+    config.cuda = options.cuda;
+    config.fallback = options.fallback;
     Run run{.scene = std::move(start.scene),
             .seed = start.seed,
             .requestedResolver = options.resolver,
             .simulation = Simulation(std::move(start.world), config)};
     run.simulation.resumeAt(start.stepsDone);
+    if (!run.simulation.resolverFailure().empty()) warnOfFallback(run.simulation);
     return run;
 }
 

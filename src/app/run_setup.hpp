@@ -23,6 +23,9 @@ class NoDevice : public Error {
     using Error::Error;
 };
 
+/// Says on stderr that a device failed and what runs instead.
+void warnOfFallback(const Simulation& simulation);
+
 /// Loads the scene or the snapshot and makes the simulation that the options ask for. A resolver
 /// that cannot run is replaced by the sequential one, with a warning on stderr.
 Run setUp(const Options& options);

@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, phaseCount> phaseNames = {"integrate", "partition",
-                                                                 "resolve", "observe"};
+constexpr std::array<std::string_view, phaseCount> phaseNames = {
+    "integrate", "partition", "flatten", "copy_to_device", "resolve", "copy_to_host", "observe"};
 
 constexpr std::array<std::string_view, showPhaseCount> showPhaseNames = {"gui", "prepare", "draw",
                                                                          "present"};
@@ -89,14 +89,13 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["resolver"] = name(config.resolver);
     json["requested_resolver"] = run.requestedResolver;
     json["threads"] = run.simulation.threads();
-    json["device"] = nullptr;
+    json["device"] =
+        config.resolver == ResolverKind::Cuda ? Json(findCudaDevice().name) : Json(nullptr);
     json["ms_per_frame"] = {{"mean", times.mean}, {"median", times.median}, {"p99", times.p99}};
     if (config.profile) {
         const auto phases = statistics.phaseMilliseconds();
         Json& out = json["phases_ms"];
         for (std::size_t i = 0; i < phaseCount; ++i) out[std::string(phaseNames[i])] = phases[i];
-        // Nothing is flattened or copied where nothing runs on a device.
-        for (const char* phase : {"flatten", "copy_to_device", "copy_to_host"}) out[phase] = 0.0;
         if (statistics.shown && statistics.shown->pictures > 0) {
             for (std::size_t i = 0; i < showPhaseCount; ++i) {
                 out[std::string(showPhaseNames[i])] =
@@ -170,6 +169,7 @@ void printSummary(std::ostream& out, const Json& json) {
         resolver += " (" + json["threads"].dump() + " threads)";
     }
     if (requested != text(json["resolver"])) resolver += " (asked for: " + requested + ")";
+    if (!json["device"].is_null()) resolver += " on " + text(json["device"]);
     row("partitioner", text(json["partitioner"]) + ", resolver " + resolver);
     const Json& ms = json["ms_per_frame"];
     row("ms per frame", number(ms["mean"], "%.4f mean, ") + number(ms["median"], "%.4f median, ") +

@@ -9,14 +9,10 @@
 #include <quadrille/bodies.hpp>
 #include <quadrille/vec2.hpp>
 
+#include "collision/cell_ownership.hpp"
 #include "collision/thread_team.hpp"
 
 namespace quadrille {
-
-/// The fine cells that a box touches: x0..x1 by y0..y1, both ends included.
-struct FineRange {
-    std::uint16_t x0, y0, x1, y1;
-};
 
 /// Maps the plane to integer cells. The map is monotone and clamped, so cells are half-open, border
 /// cells reach to infinity, and which cell holds a point is decided by integers alone: rounding

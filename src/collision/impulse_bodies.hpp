@@ -47,4 +47,19 @@ ContactRecord makeRecord(const PendingContact<Real>& c, double stepStart, bool c
             .collided = collided};
 }
 
+/// The same for a contact of the law `baseline`, which knows no times within a step; `b` is a row
+/// of a moving body, or -1 - row of a static one.
+template <class Real>
+ContactRecord makeRecord(std::uint32_t a, std::int64_t b, const Penetration<Real>& p,
+                         const StepParameters<Real>& step) {
+    const auto sense = static_cast<std::int8_t>(p.sense);
+    return {.time = step.start + static_cast<double>(step.dt),
+            .a = a,
+            .b = b,
+            .axes = p.axis,
+            .senseX = sense,
+            .senseY = sense,
+            .collided = true};
+}
+
 }  // namespace quadrille

@@ -8,19 +8,11 @@
 #include <quadrille/partitioner.hpp>
 #include <quadrille/vec2.hpp>
 
+#include "collision/cell_ownership.hpp"
 #include "collision/fine_grid.hpp"
 #include "collision/thread_team.hpp"
 
 namespace quadrille {
-
-/// Whether a body's box begins left of a cell or below it.
-///
-/// Of the cells that two bodies share, their pair belongs to the one that holds the low corner of
-/// the intersection of their boxes: the one in which no edge is crossed by both. Pairs of an
-/// incomplete partition belong to every cell that they share.
-struct CrossedEdges {
-    bool left, below;
-};
 
 /// Cells, and what the narrow phase needs to know about how they were made.
 template <class Real>
@@ -32,9 +24,8 @@ struct Partition {
     std::uint64_t generation = 0;   ///< counts the builds
 
     CrossedEdges crossedEdges(std::size_t cell, std::uint32_t body) const {
-        const CellCoordinates& c = cells.coordinates[cell];
-        const FineRange& r = ranges[body];
-        return {complete && r.x0 < c.x, complete && r.y0 < c.y};
+        if (!complete) return {false, false};
+        return crossedEdgesOf(cells.coordinates[cell], ranges[body]);
     }
 
     std::size_t bytes() const {

@@ -4,6 +4,7 @@
 
 #include <quadrille/error.hpp>
 
+#include "collision/cuda_resolver.hpp"
 #include "collision/sequential_baseline.hpp"
 #include "collision/sequential_impulse.hpp"
 #include "collision/threads_impulse.hpp"
@@ -48,6 +49,8 @@ std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config,
             if (config.law == Law::Impulse) return std::make_unique<ThreadsImpulse<Real>>(team);
             break;
         case ResolverKind::Cuda:
+            if (config.law != Law::Continuous) return makeCudaResolver<Real>(config);
+            break;
         case ResolverKind::CudaResident:
             throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
                                "' is not available yet");

@@ -149,8 +149,10 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
                                                        Real reach) const {
     const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
     if (fixed > 0) return static_cast<Real>(fixed);
-    // The first tree shows how the bodies are spread, which decides about the second.
-    if (this->partition_.generation == 0) return 0;
+    // The first tree shows how the bodies are spread, which decides about the second; and so does
+    // the first tree of many more bodies.
+    const auto& last = this->partition_;
+    if (last.generation == 0 || last.ranges.size() < bodies.size() / 2) return 0;
 
     // A law that looks ahead searches each pair once, as far as the tree will last, and again
     // around events only; the others test each pair in each step.

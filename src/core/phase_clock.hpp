@@ -23,6 +23,8 @@ class PhaseClock {
         last_ = now;
     }
 
+    bool enabled() const { return enabled_; }
+
     /// Leaves out what happened since the last phase.
     void restart() {
         if (enabled_) last_ = Clock::now();

@@ -42,6 +42,10 @@ void validate(const SimulationConfig& config) {
             throw Error("simulation: gravity does not fit single precision");
         }
     }
+    const int block = config.cuda.blockSize;
+    if (block < 32 || block > 1024 || block % 32 != 0) {
+        throw Error("simulation: the block size must be a multiple of 32 from 32 to 1024");
+    }
     if (!(config.restitution >= 0 && config.restitution <= 1)) {
         throw Error("simulation: restitution must be from 0 to 1");
     }
@@ -61,6 +65,7 @@ struct Simulation::Impl {
     World world;
     SimulationConfig config;
     AnyStepper stepper;
+    std::string resolverFailure;  // outlives the stepper that noticed it
     StepReport report;
     std::uint64_t stepsDone = 0;
 
@@ -77,11 +82,21 @@ struct Simulation::Impl {
           stepper(makeStepper(config, world.config().size)) {
         world.setPrecision(config.precision);
         dropUnusedAnchors();
+        noteFallback();
     }
 
     void dropUnusedAnchors();
     void collectContacts();
     void notify();
+
+    /// Says in the configuration what runs after a fallback.
+    void noteFallback() {
+        const std::string& failure = std::visit(
+            [](const auto& s) -> const std::string& { return s.resolverFailure(); }, stepper);
+        if (failure.empty()) return;
+        config.resolver = ResolverKind::Sequential;
+        resolverFailure = failure;
+    }
 };
 
 Simulation::Simulation(World world, SimulationConfig config) {
@@ -109,6 +124,7 @@ const StepReport& Simulation::step() {
         },
         s.stepper);
     ++s.stepsDone;
+    s.noteFallback();
     s.notify();
     return s.report;
 }
@@ -167,6 +183,8 @@ void Simulation::run(std::uint64_t steps) {
 World& Simulation::world() { return impl_->world; }
 const World& Simulation::world() const { return impl_->world; }
 const SimulationConfig& Simulation::config() const { return impl_->config; }
+const std::string& Simulation::resolverFailure() const { return impl_->resolverFailure; }
+
 std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
 double Simulation::time() const { return StepTimes(impl_->config.dt).at(impl_->stepsDone); }
 
@@ -198,7 +216,9 @@ void Simulation::reconfigure(const SimulationConfig& config) {
     AnyStepper stepper = makeStepper(config, s.world.config().size);
     s.config = config;
     s.stepper = std::move(stepper);
+    if (config.resolver != ResolverKind::Sequential) s.resolverFailure.clear();
     s.dropUnusedAnchors();
+    s.noteFallback();
 }
 
 const Cells& Simulation::cells() const {

@@ -7,12 +7,17 @@
 
 #include <quadrille/error.hpp>
 
+#include "collision/motion.hpp"
+
 namespace quadrille {
 
 namespace {
 
+/// `cuda` leaves the partition to the host, which is most of its step.
 unsigned threadsOf(const SimulationConfig& config) {
-    if (config.resolver != ResolverKind::Threads) return 1;
+    const bool shared =
+        config.resolver == ResolverKind::Threads || config.resolver == ResolverKind::Cuda;
+    if (!shared) return 1;
     return static_cast<unsigned>(config.threads > 0 ? config.threads : Simulation::cores());
 }
 
@@ -22,10 +27,9 @@ void advance(std::span<Real> position, std::span<Real> velocity, Real gravity, R
     Real* const v = velocity.data();
     const std::size_t count = position.size();
     if (gravity != 0) {
-        const Real change = gravity * dt;
-        for (std::size_t i = 0; i < count; ++i) v[i] += change;
+        for (std::size_t i = 0; i < count; ++i) v[i] = accelerated(v[i], gravity, dt);
     }
-    for (std::size_t i = 0; i < count; ++i) p[i] += v[i] * dt;
+    for (std::size_t i = 0; i < count; ++i) p[i] = moved(p[i], v[i], dt);
 }
 
 /// Stops a run before a NaN spreads.
@@ -71,8 +75,40 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize, bo
         }
         continuous_ = makeContinuousLaw<Real>(config);
     } else {
-        resolver_ = makeResolver<Real>(config, *team_);
+        try {
+            resolver_ = makeResolver<Real>(config, *team_);
+        } catch (const DeviceError& failure) {
+            if (!config.fallback) throw;
+            useSequential(config, failure);
+        }
     }
+    config_ = config;
+    worldSize_ = worldSize;
+}
+
+template <class Real>
+void Stepper<Real>::useSequential(SimulationConfig config, const DeviceError& failure) {
+    config.resolver = ResolverKind::Sequential;
+    resolver_ = makeResolver<Real>(config, *team_);
+    resolverFailure_ = failure.what();
+}
+
+template <class Real>
+template <class Function>
+decltype(auto) Stepper<Real>::onResolver(const BodyView<Real>& bodies, StepReport& report,
+                                         Function&& function) {
+    try {
+        return function(*resolver_);
+    } catch (const DeviceError& failure) {
+        if (!config_.fallback) throw;
+        useSequential(config_, failure);
+    }
+    if (partitioner_->partition().complete) {
+        // Candidate pairs can be collected only when the cells are made, so they are made anew.
+        partitioner_ = makePartitioner<Real>(config_.partitioner, worldSize_, *team_);
+        updatePartition(bodies, Real(0), report);
+    }
+    return function(*resolver_);
 }
 
 template <class Real>
@@ -125,14 +161,17 @@ ResolveCounts Stepper<Real>::stepDiscrete(const BodyView<Real>& bodies, std::uin
     parameters_.start = times_.at(number - 1);
     integrate(bodies);
     clock.finish(Phase::Integrate);
+    onResolver(bodies, report,
+               [&](Resolver<Real>& r) { r.integrated(bodies, parameters_, clock); });
     updatePartition(bodies, Real(0), report);
     clock.finish(Phase::Partition);
     if (report.audited) {
         countMissedPairs(bodies, Real(0), report);
         clock.restart();
     }
-    const ResolveCounts counts =
-        resolver_->resolve(bodies, partitioner_->partition(), parameters_, records);
+    const ResolveCounts counts = onResolver(bodies, report, [&](Resolver<Real>& r) {
+        return r.resolve(bodies, partitioner_->partition(), parameters_, records);
+    });
     clock.finish(Phase::Resolve);
     return counts;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include <quadrille/error.hpp>
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
@@ -28,6 +30,8 @@ class Stepper {
     void step(World& world, std::uint64_t number, std::vector<ContactRecord>* records,
               StepReport& report, bool profile);
 
+    /// Why the resolver that was asked for was replaced by the sequential one; empty if it was not.
+    const std::string& resolverFailure() const { return resolverFailure_; }
     /// That share out the loops of a step.
     unsigned threads() const { return team_->size(); }
 
@@ -46,6 +50,13 @@ class Stepper {
     void updatePartition(const BodyView<Real>& bodies, Real reach, StepReport& report);
     void integrate(const BodyView<Real>& bodies) const;
 
+    /// Calls `function(Resolver<Real>&)`. If a device fails in it, goes on with the sequential
+    /// resolver where the configuration allows that.
+    template <class Function>
+    decltype(auto) onResolver(const BodyView<Real>& bodies, StepReport& report,
+                              Function&& function);
+    void useSequential(SimulationConfig config, const DeviceError& failure);
+
     /// Adds to the report what the partition does not show of the pairs that overlap, or would
     /// after moving up to `reach`.
     void countMissedPairs(const BodyView<Real>& bodies, Real reach, StepReport& report);
@@ -57,6 +68,9 @@ class Stepper {
     std::unique_ptr<Resolver<Real>> resolver_;         // of a discrete law, or
     std::unique_ptr<ContinuousLaw<Real>> continuous_;  // the continuous one
     StepTimes times_;
+    SimulationConfig config_;
+    Vec2 worldSize_{0, 0};
+    std::string resolverFailure_;
 };
 
 }  // namespace quadrille

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include <quadrille/device.hpp>
 #include <quadrille/simulation.hpp>
 
 #include "program.hpp"
@@ -123,6 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, OtherLaw, testing::Values("baseline", "continu
                          [](const auto& test) { return identifier(test.param); });
 
 TEST(Threads, AutoTakesThemForManyBodiesOnly) {
+    if (findCudaDevice().usable()) GTEST_SKIP() << "there is a device, which comes first";
     const auto resolverOf = [](const char* entities, const Arguments& more) {
         return summaryOf(Arguments{"--headless", "--scene", "balanced", "--entities", entities,
                                    "--frames", "3", "--json", "-"} +

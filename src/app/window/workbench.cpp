@@ -97,7 +97,9 @@ int Workbench::advance(double seconds) {
 
 void Workbench::step() {
     contacts_.clear();
+    const bool onDevice = config().resolver == ResolverKind::Cuda;
     lastStep_ = session_->step();
+    if (onDevice && config().resolver != ResolverKind::Cuda) sayFallback();
     cellsVersion_ += lastStep_.rebuilt;
     for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
 }
@@ -137,6 +139,11 @@ void Workbench::restart(Options options, const std::string& success) {
 
 void Workbench::apply(SimulationConfig config) {
     config.countMissedPairs = options_->error || mayMissPairs(config.partitioner);
+    // Here nothing is gained by a fallback: what runs can go on.
+    if (config.resolver == ResolverKind::Cuda && this->config().resolver != ResolverKind::Cuda) {
+        const CudaDevice device = findCudaDevice();
+        if (!device.usable()) throw DeviceError("cuda: " + device.reason);
+    }
     session_->simulation().reconfigure(config);
     ++cellsVersion_;
 }
@@ -147,6 +154,7 @@ void Workbench::reconfigure(SimulationConfig config) {
     try {
         apply(config);
         if (config.resolver != before) session_->run().requestedResolver = name(config.resolver);
+        if (config.resolver != this->config().resolver) sayFallback();
         return;
     } catch (const std::exception& error) {
         reason = error.what();
@@ -218,6 +226,10 @@ void Workbench::watchContacts(bool wanted) {
     session_->simulation().onContact([this](const Contact& contact) {
         if (watching_ || selected_) contacts_.push_back(contact);
     });
+}
+
+void Workbench::sayFallback() {
+    say(session_->simulation().resolverFailure() + "; running 'sequential'", true);
 }
 
 void Workbench::say(std::string text, bool isError) {

@@ -92,6 +92,7 @@ class Workbench {
     void restart(Options options, const std::string& success);
     /// Throws what Simulation::reconfigure throws.
     void apply(SimulationConfig config);
+    void sayFallback();
     void step();
     bool done() const { return session_->allFramesDone(); }
 

@@ -1,0 +1,274 @@
+// The report's experiments, with this engine's figures beside the report's.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <quadrille/error.hpp>
+
+#include "bench/partitioner_spec.hpp"
+#include "bench/report_figures.hpp"
+#include "bench/scene_runs.hpp"
+#include "bench/table.hpp"
+
+namespace {
+
+using namespace quadrille;
+using namespace quadrille::bench;
+
+struct Options {
+    std::filesystem::path folder = "reproduce";
+    std::size_t frames = 200;
+    Protocol protocol;
+};
+
+/// A line of a figure: who runs it, and its counterpart in the report if there is one.
+struct Scheme {
+    std::string name;
+    std::string partitioner;
+    ResolverKind resolver;
+    std::optional<ReportScheme> report;
+};
+
+const std::vector<Scheme> schemes = {
+    {"grid, sequential", "static-grid:26x26", ResolverKind::Sequential,
+     ReportScheme::GridSequential},
+    {"grid, cuda", "static-grid:26x26", ResolverKind::Cuda, ReportScheme::GridCuda},
+    {"quadtree, sequential", "quadtree:10/20", ResolverKind::Sequential,
+     ReportScheme::QuadtreeSequential},
+    {"quadtree, cuda", "quadtree:10/20", ResolverKind::Cuda, ReportScheme::QuadtreeCuda},
+    {"every 10, sequential", "semi-static-quadtree:10/20/every=10", ResolverKind::Sequential, {}},
+    {"every 10, cuda", "semi-static-quadtree:10/20/every=10", ResolverKind::Cuda,
+     ReportScheme::SemiStaticCuda},
+    {"skin, sequential", "semi-static-quadtree:10/20/skin", ResolverKind::Sequential, {}},
+    {"skin, cuda", "semi-static-quadtree:10/20/skin", ResolverKind::Cuda, {}},
+};
+
+std::string orNone(std::optional<double> value) {
+    return value ? number(*value) : std::string(noValue);
+}
+
+Variant variantOf(const Scheme& scheme, Law law) {
+    return {.partitioner = parsePartitioner(scheme.partitioner),
+            .law = law,
+            .resolver = scheme.resolver};
+}
+
+/// The schemes in a scene, law by law; schemes that cannot run here are missing.
+struct SchemeTimes {
+    const Scheme* scheme;
+    Law law;
+    Measurement measurement;
+};
+
+std::vector<SchemeTimes> timeSchemes(const std::string& scene, std::optional<std::uint64_t> count,
+                                     const Options& options) {
+    SceneRuns runs{scene, count, {}, options.frames};
+    for (const Law law : {Law::Baseline, Law::Impulse}) {
+        for (const Scheme& scheme : schemes) runs.variants.push_back(variantOf(scheme, law));
+    }
+    std::vector<SchemeTimes> times;
+    for (Measurement& m : measure(runs, options.protocol)) {
+        const auto same = [&](const Scheme& scheme) {
+            return scheme.resolver == m.variant.resolver &&
+                   scheme.partitioner == specOf(m.variant.partitioner);
+        };
+        const auto scheme = std::find_if(schemes.begin(), schemes.end(), same);
+        times.push_back({&*scheme, m.variant.law, std::move(m)});
+    }
+    return times;
+}
+
+/// Milliseconds of the sequential grid under the same law.
+std::optional<double> gridTime(const std::vector<SchemeTimes>& times, Law law) {
+    for (const SchemeTimes& t : times) {
+        if (t.law == law && t.scheme->report == ReportScheme::GridSequential) {
+            return t.measurement.times.mean;
+        }
+    }
+    return {};
+}
+
+/// Figure 5, and the imbalanced scene under the same schemes.
+void speedups(const Options& options) {
+    Table table({"scene", "bodies", "scheme", "law", "mean_ms", "median_ms", "speedup_over_grid",
+                 "report_speedup", "report_program_ms", "times_faster_than_program"});
+    const auto addRows = [&](const std::string& scene, std::optional<std::size_t> index) {
+        const auto count = index ? std::optional<std::uint64_t>(reportCounts[*index])
+                                 : std::optional<std::uint64_t>();
+        std::cerr << "speed-up: " << scene << ' ' << (count ? std::to_string(*count) : "") << '\n';
+        const std::vector<SchemeTimes> times = timeSchemes(scene, count, options);
+        for (const SchemeTimes& t : times) {
+            const Measurement& m = t.measurement;
+            const std::optional<double> grid = gridTime(times, t.law);
+            std::optional<double> reported, program;
+            if (const auto report = t.scheme->report) {
+                if (index) reported = reportSpeedup(*report, *index);
+                program = index ? programMilliseconds(*report, *index) : programImbalanced(*report);
+            }
+            table.add({scene, std::to_string(m.bodies), t.scheme->name, std::string(name(t.law)),
+                       number(m.times.mean), number(m.times.median),
+                       grid ? number(*grid / m.times.mean) : std::string(noValue), orNone(reported),
+                       orNone(program),
+                       program ? number(*program / m.times.mean) : std::string(noValue)});
+        }
+    };
+    for (std::size_t i = 0; i < reportCounts.size(); ++i) addRows("balanced", i);
+    addRows("imbalanced", {});
+    publish(table,
+            {(options.folder / "speedup.csv").string(), (options.folder / "speedup.md").string()},
+            {"balanced, 50,000 and fewer bodies: figure 5 of the report"});
+}
+
+/// The report's value at the nearest number of cells, on a logarithmic scale, within a factor of
+/// 1.5.
+std::optional<double> nearest(const std::vector<CellPoint>& curve, double cells) {
+    const CellPoint* best = nullptr;
+    const auto apart = [&](const CellPoint& p) { return std::abs(std::log(p.cells / cells)); };
+    for (const CellPoint& p : curve) {
+        if (best == nullptr || apart(p) < apart(*best)) best = &p;
+    }
+    if (best == nullptr || apart(*best) > std::log(1.5)) return {};
+    return best->milliseconds;
+}
+
+/// Figures 6 and 7: the number of cells is varied by their size, or by the bodies that a leaf may
+/// hold.
+void cells(const Options& options) {
+    Table table({"scene", "scheme", "thread_per", "cells", "active_cells", "mean_ms", "report_ms"});
+    const std::array<double, 8> sides = {320, 150, 100, 60, 45, 36, 26, 20};
+    const std::array<int, 8> perLeaf = {400, 100, 50, 30, 20, 12, 7, 4};
+    const auto addRows = [&](const std::string& scene, bool imbalanced) {
+        std::vector<Measurement> measurements;
+        for (const CudaThread thread : {CudaThread::Cell, CudaThread::Body}) {
+            // A single thread for a crowded cell takes up to a second a frame.
+            const bool slow = thread == CudaThread::Cell;
+            SceneRuns runs{
+                scene, {}, {}, std::max<std::size_t>(1, options.frames / (slow ? 20 : 2))};
+            if (!imbalanced) runs.entities = 1'700;
+            const auto add = [&](const PartitionerConfig& partitioner) {
+                runs.variants.push_back({.partitioner = partitioner,
+                                         .resolver = ResolverKind::Cuda,
+                                         .cuda = {.threadPer = thread}});
+            };
+            for (const double side : sides) add(StaticGrid{{side, side}});
+            for (const int most : perLeaf) add(Quadtree{10, most});
+            for (const int most : perLeaf) {
+                add(SemiStaticQuadtree{10, most, SemiStaticQuadtree::EveryFrames{10}});
+            }
+            std::cerr << "cells: " << scene << ", a thread a " << (slow ? "cell" : "body") << '\n';
+            Protocol protocol = options.protocol;
+            if (slow)
+                protocol = {.warmup = std::min<std::size_t>(protocol.warmup, 2), .repeats = 1};
+            for (Measurement& m : measure(runs, protocol)) measurements.push_back(std::move(m));
+        }
+        for (const Measurement& m : measurements) {
+            const std::size_t kind = m.variant.partitioner.index();
+            const auto report = std::holds_alternative<StaticGrid>(m.variant.partitioner)
+                                    ? ReportScheme::GridCuda
+                                : std::holds_alternative<Quadtree>(m.variant.partitioner)
+                                    ? ReportScheme::QuadtreeCuda
+                                    : ReportScheme::SemiStaticCuda;
+            const bool perCell = m.variant.cuda.threadPer == CudaThread::Cell;
+            table.add(
+                {scene,
+                 kind == 1   ? "grid"
+                 : kind == 2 ? "quadtree"
+                             : "every 10",
+                 perCell ? "cell" : "body", std::to_string(m.cells.cells),
+                 std::to_string(m.cells.activeCells), number(m.times.mean),
+                 orNone(nearest(reportCellCurve(report, imbalanced), double(m.cells.cells)))});
+        }
+    };
+    addRows("imbalanced", true);
+    addRows("balanced", false);
+    publish(table,
+            {(options.folder / "cells.csv").string(), (options.folder / "cells.md").string()},
+            {"1,700 bodies, law impulse: figures 6 (imbalanced) and 7 (balanced) of the report; "
+             "report_ms is the report's at the nearest number of cells"});
+}
+
+/// The report's points as they are, for the plot.
+void reportCurves(const Options& options) {
+    Table table({"scene", "scheme", "cells", "report_ms"});
+    for (const bool imbalanced : {true, false}) {
+        for (const auto& [scheme, text] : {std::pair{ReportScheme::GridCuda, "grid"},
+                                           {ReportScheme::QuadtreeCuda, "quadtree"},
+                                           {ReportScheme::SemiStaticCuda, "every 10"}}) {
+            for (const CellPoint& p : reportCellCurve(scheme, imbalanced)) {
+                table.add({imbalanced ? "imbalanced" : "balanced", text, number(p.cells),
+                           number(p.milliseconds)});
+            }
+        }
+    }
+    publish(table, {(options.folder / "report_cells.csv").string(), {}}, {});
+}
+
+/// Table 2: 20,000 bodies, tree rebuilt every ten frames.
+void profile(const Options& options) {
+    SceneRuns runs{"balanced", 20'000, {}, options.frames};
+    for (const char* spec :
+         {"semi-static-quadtree:10/20/every=10", "semi-static-quadtree:10/20/skin"}) {
+        runs.variants.push_back({.partitioner = parsePartitioner(spec),
+                                 .resolver = ResolverKind::Cuda,
+                                 .profile = true});
+    }
+    std::cerr << "profile\n";
+    const std::vector<Measurement> measurements = measure(runs, options.protocol);
+    Table table({"partitioner", "phase", "ms", "percent", "report_percent", "report_program_ms",
+                 "report_program_percent"});
+    for (const Measurement& m : measurements) {
+        double total = 0;
+        for (const double ms : m.phaseMilliseconds) total += ms;
+        for (std::size_t i = 0; i < phaseCount; ++i) {
+            const ProfileRow& row = reportProfile()[i];
+            const auto program = row.programMilliseconds;
+            table.add(
+                {specOf(m.variant.partitioner), std::string(row.phase),
+                 number(m.phaseMilliseconds[i]), number(100 * m.phaseMilliseconds[i] / total),
+                 orNone(row.reportPercent), orNone(program),
+                 program ? number(100 * *program / programProfileTotal) : std::string(noValue)});
+        }
+    }
+    publish(table,
+            {(options.folder / "profile.csv").string(), (options.folder / "profile.md").string()},
+            {"20,000 bodies, law impulse: table 2 of the report; each phase is waited for, so that "
+             "their sum is more than an unprofiled frame takes"});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app("Makes the report's experiments and sets its figures beside ours.");
+    app.add_option("--folder", options.folder, "where the tables go")->capture_default_str();
+    app.add_option("--frames", options.frames, "timed frames per repeat")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1'000'000));
+    app.add_option("--warmup", options.protocol.warmup, "frames before them")
+        ->capture_default_str();
+    app.add_option("--repeat", options.protocol.repeats, "runs of each row")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    try {
+        app.parse(argc, argv);
+        std::filesystem::create_directories(options.folder);
+        reportCurves(options);
+        speedups(options);
+        cells(options);
+        profile(options);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+        return 1;
+    }
+    return 0;
+}

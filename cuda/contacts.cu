@@ -1,0 +1,247 @@
+#include "cuda/launch.cuh"
+
+// The narrow phase: which pairs of bodies overlap.
+
+namespace quadrille::cuda {
+
+namespace {
+
+/// Keeps the pairs for later steps.
+template <class Real>
+struct ToCandidates {
+    CandidateList list;
+
+    __device__ void operator()(std::uint32_t a, std::uint32_t b) const {
+        const unsigned long long place = countUp(&list.counts->candidates);
+        if (place < list.capacity) list.pairs[place] = {a, b};
+    }
+};
+
+/// Makes contacts of the pairs and puts them into the lists of their bodies.
+template <class Real>
+struct ToContacts {
+    ContactList<Real> list;
+    ImpulseBodies<Real> bodies;
+    Real dt;
+
+    __device__ void operator()(std::uint32_t a, std::uint32_t b) const {
+        constexpr std::uint32_t staticBit = PendingContact<Real>::staticBit;
+        const unsigned long long place = countUp(&list.counts->contacts);
+        if (place >= list.capacity) return;  // the host makes room and comes again
+        const auto i = static_cast<std::uint32_t>(place);
+        const bool moving = (b & staticBit) == 0;
+        list.contacts[i] =
+            moving ? movingContact(bodies, a, b, dt) : staticContact(bodies, a, b & ~staticBit, dt);
+        list.nextA[i] = atomicExch(&list.heads[a], i);
+        if (moving) list.nextB[i] = atomicExch(&list.heads[b], i);
+    }
+};
+
+/// A member of a cell.
+template <class Real>
+struct Member {
+    std::uint32_t body;  ///< as in the cell: static ones follow the moving ones
+    bool fixed;
+    Real x, y, halfWidth, halfHeight;
+
+    __device__ Member(const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
+                      std::uint32_t entry)
+        : body(cells.bodies[entry]), fixed(body >= cells.movingCount) {
+        if (fixed) {
+            const std::uint32_t k = body - cells.movingCount;
+            const auto& f = bodies.fixed;
+            x = f.x[k];
+            y = f.y[k];
+            halfWidth = f.halfWidth[k];
+            halfHeight = f.halfHeight[k];
+        } else {
+            const auto& m = bodies.moving;
+            x = m.x[body];
+            y = m.y[body];
+            halfWidth = m.halfWidth[body];
+            halfHeight = m.halfHeight[body];
+        }
+    }
+};
+
+/// Whether members p and q of a cell overlap, p standing before q; two static ones never do.
+template <class Real>
+__device__ bool overlap(const Member<Real>& p, const Member<Real>& q, Real inflation) {
+    // The inflation is added where the host adds it, so that rounding shows both the same pairs.
+    const Member<Real>& wide = q.fixed ? q : p;
+    const Member<Real>& other = q.fixed ? p : q;
+    return !p.fixed & overlaps(q.x - p.x, q.y - p.y, (wide.halfWidth + inflation) + other.halfWidth,
+                               (wide.halfHeight + inflation) + other.halfHeight);
+}
+
+/// Hands out a pair of members that overlap, p standing before q, if it belongs to this cell.
+template <class Found>
+__device__ void handOut(const DeviceCells& cells, std::uint32_t cell, std::uint32_t p,
+                        std::uint32_t q, const Found& found) {
+    if (cells.complete) {
+        const CellCoordinates& corner = cells.coordinates[cell];
+        const CrossedEdges edgesP = crossedEdgesOf(corner, cells.ranges[p]);
+        const CrossedEdges edgesQ = crossedEdgesOf(corner, cells.ranges[q]);
+        if ((edgesP.left && edgesQ.left) || (edgesP.below && edgesQ.below)) return;
+    }
+    const bool fixed = q >= cells.movingCount;
+    found(p, fixed ? (q - cells.movingCount) | PendingContact<double>::staticBit : q);
+}
+
+/// The cell of an entry: the last that begins at or before it. Empty cells begin where the next
+/// one does, so it is one that holds the entry.
+__device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t entry) {
+    std::uint32_t low = 0;
+    std::uint32_t high = cells.cells;
+    while (high - low > 1) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        if (cells.offsets[middle] <= entry) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/// A thread for each body in each cell. Member i meets the half of the others that follow it, the
+/// first after the last, so that all members have as much to do.
+template <class Real, class Found>
+__global__ void comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, Real inflation,
+                               Found found, StepCounts* counts) {
+    // Several pairs are compared before one is handed out, so that their loads overlap.
+    constexpr std::uint32_t together = 8;
+    unsigned long long tested = 0;
+    const std::uint32_t entry = threadNumber();
+    if (entry < cells.entries) {
+        const std::uint32_t cell = cellOf(cells, entry);
+        const std::uint32_t first = cells.offsets[cell];
+        const std::uint32_t members = cells.offsets[cell + 1] - first;
+        const std::uint32_t i = entry - first;
+        const Member<Real> self(bodies, cells, entry);
+        // Opposite members of an even number meet once.
+        const std::uint32_t partners = (members - 1) / 2 + (members % 2 == 0 && 2 * i < members);
+        const auto partner = [&](std::uint32_t k) {
+            return i + k < members ? i + k : i + k - members;
+        };
+        for (std::uint32_t start = 1; start <= partners; start += together) {
+            std::uint32_t hits = 0;
+#pragma unroll
+            for (std::uint32_t l = 0; l < together; ++l) {
+                const bool inside = start + l <= partners;
+                const std::uint32_t j = partner(inside ? start + l : 0);
+                const Member<Real> other(bodies, cells, first + j);
+                const bool hit =
+                    i < j ? overlap(self, other, inflation) : overlap(other, self, inflation);
+                tested += inside && !(self.fixed && other.fixed);
+                hits |= std::uint32_t(inside && hit) << l;
+            }
+            for (; hits != 0; hits &= hits - 1) {
+                const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
+                const std::uint32_t other = cells.bodies[first + j];
+                if (i < j) {
+                    handOut(cells, cell, self.body, other, found);
+                } else {
+                    handOut(cells, cell, other, self.body, found);
+                }
+            }
+        }
+    }
+    if (counts != nullptr) addFromBlock(&counts->tested, tested);
+}
+
+/// A thread for each cell, as in the report.
+template <class Real, class Found>
+__global__ void comparePerCell(ImpulseBodies<Real> bodies, DeviceCells cells, Real inflation,
+                               Found found, StepCounts* counts) {
+    unsigned long long tested = 0;
+    const std::uint32_t cell = threadNumber();
+    if (cell < cells.cells) {
+        const std::uint32_t last = cells.offsets[cell + 1];
+        for (std::uint32_t i = cells.offsets[cell]; i < last; ++i) {
+            const Member<Real> self(bodies, cells, i);
+            if (self.fixed) break;
+            for (std::uint32_t j = i + 1; j < last; ++j) {
+                const Member<Real> other(bodies, cells, j);
+                ++tested;
+                if (overlap(self, other, inflation)) {
+                    handOut(cells, cell, self.body, other.body, found);
+                }
+            }
+        }
+    }
+    if (counts != nullptr) addFromBlock(&counts->tested, tested);
+}
+
+template <class Real, class Found>
+void comparePairs(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
+                  Real inflation, const Found& found, StepCounts* counts) {
+    const int size = launch.options.blockSize;
+    if (launch.options.threadPer == CudaThread::Cell) {
+        comparePerCell<<<blocksFor(cells.cells, size), size, 0, launch.stream>>>(
+            bodies, cells, inflation, found, counts);
+    } else {
+        comparePerBody<<<blocksFor(cells.entries, size), size, 0, launch.stream>>>(
+            bodies, cells, inflation, found, counts);
+    }
+    checkLaunch("comparePairs");
+}
+
+template <class Real>
+__global__ void testCandidatesKernel(ImpulseBodies<Real> bodies, const CandidatePair* candidates,
+                                     std::uint32_t count, ToContacts<Real> found) {
+    constexpr std::uint32_t staticBit = PendingContact<Real>::staticBit;
+    const std::uint32_t i = threadNumber();
+    if (i >= count) return;
+    const CandidatePair pair = candidates[i];
+    const auto& m = bodies.moving;
+    const auto& f = bodies.fixed;
+    const Real x = m.x[pair.a];
+    const Real y = m.y[pair.a];
+    const Real halfWidth = m.halfWidth[pair.a];
+    const Real halfHeight = m.halfHeight[pair.a];
+    const bool moving = (pair.b & staticBit) == 0;
+    const std::uint32_t b = pair.b & ~staticBit;
+    const bool touch = moving ? overlaps(m.x[b] - x, m.y[b] - y, halfWidth + m.halfWidth[b],
+                                         halfHeight + m.halfHeight[b])
+                              : overlaps(f.x[b] - x, f.y[b] - y, halfWidth + f.halfWidth[b],
+                                         halfHeight + f.halfHeight[b]);
+    if (touch) found(pair.a, pair.b);
+}
+
+}  // namespace
+
+template <class Real>
+void collectCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
+                       const DeviceCells& cells, Real inflation, const CandidateList& candidates) {
+    comparePairs(launch, bodies, cells, inflation, ToCandidates<Real>{candidates}, nullptr);
+}
+
+template <class Real>
+void findContacts(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
+                  Real dt, const ContactList<Real>& contacts) {
+    comparePairs(launch, bodies, cells, Real(0), ToContacts<Real>{contacts, bodies, dt},
+                 contacts.counts);
+}
+
+template <class Real>
+void testCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
+                    const CandidatePair* candidates, std::uint32_t count, Real dt,
+                    const ContactList<Real>& contacts) {
+    const int size = launch.options.blockSize;
+    testCandidatesKernel<<<blocksFor(count, size), size, 0, launch.stream>>>(
+        bodies, candidates, count, ToContacts<Real>{contacts, bodies, dt});
+    checkLaunch("testCandidatesKernel");
+}
+
+#define QUADRILLE_INSTANTIATE(Real)                                                                \
+    template void collectCandidates(const Launch&, const ImpulseBodies<Real>&, const DeviceCells&, \
+                                    Real, const CandidateList&);                                   \
+    template void findContacts(const Launch&, const ImpulseBodies<Real>&, const DeviceCells&,      \
+                               Real, const ContactList<Real>&);                                    \
+    template void testCandidates(const Launch&, const ImpulseBodies<Real>&, const CandidatePair*,  \
+                                 std::uint32_t, Real, const ContactList<Real>&);
+QUADRILLE_INSTANTIATE(double)
+QUADRILLE_INSTANTIATE(float)
+
+}  // namespace quadrille::cuda

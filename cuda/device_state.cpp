@@ -1,0 +1,222 @@
+#include "cuda/device_state.hpp"
+
+#include <quadrille/device.hpp>
+#include <quadrille/error.hpp>
+
+#include "cuda/check.hpp"
+
+namespace quadrille {
+
+CudaDevice findCudaDevice() {
+    const auto unusable = [](cudaError_t error) {
+        cudaGetLastError();  // else the next launch would report it again
+        return CudaDevice{.name = {}, .reason = cudaGetErrorString(error)};
+    };
+    int count = 0;
+    if (const cudaError_t error = cudaGetDeviceCount(&count); error != cudaSuccess) {
+        return unusable(error);
+    }
+    if (count == 0) return {.name = {}, .reason = "no CUDA device"};
+    int device = 0;
+    cudaDeviceProp properties{};
+    if (cudaError_t error = cudaGetDevice(&device); error != cudaSuccess) return unusable(error);
+    if (cudaError_t error = cudaGetDeviceProperties(&properties, device); error != cudaSuccess) {
+        return unusable(error);
+    }
+    if (cudaError_t error = cuda::tryKernels(); error != cudaSuccess) return unusable(error);
+    return {.name = properties.name, .reason = {}};
+}
+
+namespace cuda {
+
+Stream::Stream(const CudaOptions& options) {
+    if (const CudaDevice device = findCudaDevice(); !device.usable()) {
+        throw DeviceError("cuda: " + device.reason);
+    }
+    int device = 0;
+    int multiprocessors = 0;
+    check(cudaGetDevice(&device), "cudaGetDevice");
+    check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device),
+          "cudaDeviceGetAttribute");
+    launch_.options = options;
+    launch_.multiprocessors = static_cast<unsigned>(multiprocessors);
+    check(cudaStreamCreateWithFlags(&launch_.stream, cudaStreamNonBlocking), "cudaStreamCreate");
+}
+
+Stream::~Stream() { cudaStreamDestroy(launch_.stream); }
+
+void Stream::wait() const {
+    check(cudaStreamSynchronize(launch_.stream), "a kernel or copy of this step");
+}
+
+namespace {
+
+/// A column on the device: the part that was added for it, if it has values of its own.
+template <class Real>
+struct ColumnPart {
+    ColumnView<Real> column;
+    std::size_t part = 0;
+
+    ColumnPart(PackedUpload& upload, const ColumnView<Real>& c) : column(c) {
+        if (!c.uniform()) part = upload.add(c.values);
+    }
+    SharedColumn<Real> on(const PackedUpload& upload) const {
+        return {column.uniform() ? nullptr : upload.on<const Real>(part), column.common};
+    }
+};
+
+}  // namespace
+
+template <class Real>
+DeviceState<Real>::DeviceState(const CudaOptions& options) : stream_(options) {
+    budget_.limit = options.memoryLimit;
+    counts_.reserve(1);
+    hostCounts_.reserve(1);
+}
+
+template <class Real>
+void DeviceState<Real>::upload(const BodyView<Real>& view) {
+    const auto& m = view.moving;
+    const auto& f = view.fixed;
+    PackedUpload& u = bodyUpload_;
+    u.clear();
+    const auto column = [&](std::span<const Real> values) { return u.add(values); };
+    const std::size_t x = column(m.x), y = column(m.y), vx = column(m.vx), vy = column(m.vy);
+    const ColumnPart<Real> halfWidth(u, m.halfWidth), halfHeight(u, m.halfHeight), mass(u, m.mass);
+    const std::size_t entity = u.add(m.entity);
+    const std::size_t fx = column(f.x), fy = column(f.y);
+    const std::size_t fixedWidth = column(f.halfWidth), fixedHeight = column(f.halfHeight);
+    const std::size_t fixedEntity = u.add(f.entity);
+    u.flatten();
+    endPhase(Phase::Flatten);
+    u.send(launch().stream);
+
+    bodies_ = {.moving = {.x = u.on<Real>(x),
+                          .y = u.on<Real>(y),
+                          .vx = u.on<Real>(vx),
+                          .vy = u.on<Real>(vy),
+                          .halfWidth = halfWidth.on(u),
+                          .halfHeight = halfHeight.on(u),
+                          .mass = mass.on(u),
+                          .entity = u.on<const std::uint32_t>(entity)},
+               .fixed = {.x = u.on<const Real>(fx),
+                         .y = u.on<const Real>(fy),
+                         .halfWidth = u.on<const Real>(fixedWidth),
+                         .halfHeight = u.on<const Real>(fixedHeight),
+                         .entity = u.on<const std::uint32_t>(fixedEntity)}};
+    movingCount_ = static_cast<std::uint32_t>(m.size());
+    revision_ = view.revision;
+    touchedRows_.reserve(m.size());
+    hostRows_.reserve(m.size());
+    hostColumns_.reserve(4 * m.size());
+    endPhase(Phase::CopyToDevice);
+}
+
+template <class Real>
+void DeviceState<Real>::beginStep(const BodyView<Real>& view, const StepParameters<Real>& step,
+                                  PhaseClock& clock) {
+    clock_ = &clock;
+    const bool kept = valid_ && revision_ == view.revision && movingCount_ == view.moving.size();
+    valid_ = false;  // until the step has succeeded
+    if (!kept) upload(view);
+    cuda::beginStep(launch(), bodies_, movingCount_, step, kept, counts_.data());
+    endPhase(Phase::Integrate);
+}
+
+template <class Real>
+bool DeviceState<Real>::updateCells(const Partition<Real>& partition, std::uint32_t movingCount) {
+    if (generation_ == partition.generation) return false;
+    const Cells& cells = partition.cells;
+    PackedUpload& u = cellUpload_;
+    u.clear();
+    const std::size_t offsets = u.add(std::span<const std::uint32_t>(cells.offsets));
+    const std::size_t bodies = u.add(std::span<const std::uint32_t>(cells.bodies));
+    const std::size_t coordinates = u.add(std::span<const CellCoordinates>(cells.coordinates));
+    const std::size_t ranges = u.add(std::span<const FineRange>(partition.ranges));
+    u.flatten();
+    endPhase(Phase::Flatten);
+    u.send(launch().stream);
+    cells_ = {.offsets = u.on<const std::uint32_t>(offsets),
+              .bodies = u.on<const std::uint32_t>(bodies),
+              .coordinates = u.on<const CellCoordinates>(coordinates),
+              .ranges = u.on<const FineRange>(ranges),
+              .cells = static_cast<std::uint32_t>(cells.size()),
+              .entries = static_cast<std::uint32_t>(cells.bodies.size()),
+              .movingCount = movingCount,
+              .complete = partition.complete};
+    generation_ = partition.generation;
+    endPhase(Phase::CopyToDevice);
+    return true;
+}
+
+template <class Real>
+void DeviceState<Real>::zeroCounts() {
+    check(cudaMemsetAsync(counts_.data(), 0, sizeof(StepCounts), launch().stream),
+          "cudaMemsetAsync");
+}
+
+template <class Real>
+void DeviceState<Real>::restart(const BodyView<Real>& view) {
+    upload(view);
+    zeroCounts();
+}
+
+template <class Real>
+HostResult<Real> DeviceState<Real>::hostResult() const {
+    Real* const columns = hostColumns_.data();
+    return {.counts = hostCounts_.data(),
+            .rows = hostRows_.data(),
+            .x = columns,
+            .y = columns + movingCount_,
+            .vx = columns + 2 * std::size_t(movingCount_),
+            .vy = columns + 3 * std::size_t(movingCount_)};
+}
+
+template <class Real>
+const StepCounts& DeviceState<Real>::finish() {
+    stream_.wait();
+    return *hostCounts_.data();
+}
+
+template <class Real>
+void DeviceState<Real>::writeBack(const BodyView<Real>& view) {
+    const auto& m = view.moving;
+    const HostResult<Real> result = hostResult();
+    for (std::uint32_t i = 0; i < result.counts->touched; ++i) {
+        const std::uint32_t row = result.rows[i];
+        m.x[row] = result.x[i];
+        m.y[row] = result.y[i];
+        m.vx[row] = result.vx[i];
+        m.vy[row] = result.vy[i];
+    }
+    valid_ = true;
+    endPhase(Phase::CopyToHost);
+}
+
+template <class Real>
+void DeviceState<Real>::endPhase(Phase phase) {
+    if (!clock_->enabled()) return;
+    stream_.wait();
+    clock_->finish(phase);
+}
+
+template <class Real>
+void DeviceState<Real>::fetch(void* host, const void* device, std::size_t bytes) const {
+    if (bytes == 0) return;
+    check(cudaMemcpyAsync(host, device, bytes, cudaMemcpyDeviceToHost, launch().stream),
+          "copy from the device");
+    stream_.wait();
+}
+
+template <class Real>
+std::size_t DeviceState<Real>::bytes() const {
+    return budget_.used + bodyUpload_.hostBytes() + cellUpload_.hostBytes() + hostCounts_.bytes() +
+           hostRows_.bytes() + hostColumns_.bytes();
+}
+
+template class DeviceState<double>;
+template class DeviceState<float>;
+
+}  // namespace cuda
+
+}  // namespace quadrille

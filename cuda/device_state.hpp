@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <cuda_runtime_api.h>
+
+#include <quadrille/bodies.hpp>
+
+#include "collision/partitioner.hpp"
+#include "core/phase_clock.hpp"
+#include "cuda/kernels.hpp"
+#include "cuda/memory.hpp"
+#include "cuda/packed_upload.hpp"
+
+namespace quadrille::cuda {
+
+/// A stream, and what is needed to launch kernels on it. Throws DeviceError if there is no device.
+class Stream {
+  public:
+    explicit Stream(const CudaOptions& options);
+    ~Stream();
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+
+    const Launch& launch() const { return launch_; }
+    void wait() const;
+
+  private:
+    Launch launch_{};
+};
+
+/// A copy of bodies and cells on the device, kept up to date with as little copying as possible:
+/// bodies are sent when somebody edited them and otherwise moved on the device by the same rule as
+/// on the host, cells are sent when they were made, and only bodies that contacts have changed come
+/// back.
+template <class Real>
+class DeviceState {
+  public:
+    explicit DeviceState(const CudaOptions& options);
+
+    /// Makes the bodies those of the host, which have just been integrated.
+    void beginStep(const BodyView<Real>& view, const StepParameters<Real>& step, PhaseClock& clock);
+
+    /// Makes the cells those of the host. Returns whether they are other ones than in the last
+    /// step.
+    bool updateCells(const Partition<Real>& partition, std::uint32_t movingCount);
+
+    /// Zeroes the counts within a step.
+    void zeroCounts();
+    /// Takes back what the step has done so far on the device, counts included.
+    void restart(const BodyView<Real>& view);
+    /// Where the step's result is to be published.
+    HostResult<Real> hostResult() const;
+    /// Waits for the step's work, publishing included, and returns what it counted.
+    const StepCounts& finish();
+    /// Copies what contacts have changed to the host's bodies; the step has then succeeded.
+    void writeBack(const BodyView<Real>& view);
+
+    /// Ends a phase in a profiled run, where each phase is waited for.
+    void endPhase(Phase phase);
+
+    const Launch& launch() const { return stream_.launch(); }
+    MemoryBudget& budget() { return budget_; }
+    const ImpulseBodies<Real>& bodies() const { return bodies_; }
+    std::uint32_t movingCount() const { return movingCount_; }
+    const DeviceCells& cells() const { return cells_; }
+    StepCounts* counts() const { return counts_.data(); }
+    TouchedBodies touched() const { return {touchedRows_.data(), counts_.data()}; }
+    /// Copies from the device and waits.
+    void fetch(void* host, const void* device, std::size_t bytes) const;
+
+    std::size_t bytes() const;
+
+  private:
+    void upload(const BodyView<Real>& view);
+
+    Stream stream_;
+    MemoryBudget budget_;
+    PhaseClock* clock_ = nullptr;
+
+    PackedUpload bodyUpload_{budget_};
+    ImpulseBodies<Real> bodies_{};
+    std::uint32_t movingCount_ = 0;
+    std::uint64_t revision_ = 0;  // of the host's bodies that are here
+    bool valid_ = false;          // the bodies here are those of the host
+
+    PackedUpload cellUpload_{budget_};
+    DeviceCells cells_{};
+    std::uint64_t generation_ = 0;  // of the partition whose cells are here
+
+    DeviceArray<StepCounts> counts_{budget_};
+    DeviceArray<std::uint32_t> touchedRows_{budget_};
+    PinnedArray<StepCounts> hostCounts_;
+    PinnedArray<std::uint32_t> hostRows_;
+    PinnedArray<Real> hostColumns_;  // x, y, vx, vy of the touched bodies
+};
+
+}  // namespace quadrille::cuda

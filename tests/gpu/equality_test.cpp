@@ -1,0 +1,177 @@
+// The resolver `cuda` gives the bits of the sequential one: every state and every contact.
+
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <tuple>
+
+#include "collision/random_scene.hpp"
+#include "collision/support.hpp"
+#include "device.hpp"
+#include "lockstep.hpp"
+
+namespace quadrille {
+namespace {
+
+using Skin = SemiStaticQuadtree::Skin;
+using EveryFrames = SemiStaticQuadtree::EveryFrames;
+
+SimulationConfig configOf(const Scene& scene) {
+    return {
+        .dt = scene.step.dt, .gravity = scene.step.gravity, .restitution = scene.step.restitution};
+}
+
+struct Case {
+    std::string scene;
+    std::optional<std::uint64_t> entities;
+    std::uint64_t steps;
+    double dt = 0;  ///< s; 0 is the scene's
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+    return out << c.scene << ", " << c.steps << " steps";
+}
+
+struct Cells {
+    std::string name;
+    PartitionerConfig config;
+};
+
+std::ostream& operator<<(std::ostream& out, const Cells& cells) { return out << cells.name; }
+
+const std::vector<Cells> partitioners = {
+    {"grid", StaticGrid{}},
+    {"coarseGrid", StaticGrid{{300, 200}}},
+    {"quadtree", Quadtree{}},
+    {"fineQuadtree", Quadtree{8, 2}},
+    {"skin", SemiStaticQuadtree{}},
+    {"wideSkin", SemiStaticQuadtree{6, 20, Skin{5}}},
+    {"everyTen", SemiStaticQuadtree{10, 20, EveryFrames{10}}},
+    {"bruteForce", BruteForce{}},
+};
+
+class ShippedScenesOnDevice
+    : public testing::TestWithParam<std::tuple<Case, Cells, Law, Precision>> {};
+
+TEST_P(ShippedScenesOnDevice, HaveTheBitsOfTheSequentialResolver) {
+    QUADRILLE_NEEDS_DEVICE();
+    const auto& [c, cells, law, precision] = GetParam();
+    SimulationConfig config = configOf(shippedScene(c.scene, c.entities));
+    config.partitioner = cells.config;
+    config.law = law;
+    config.precision = precision;
+    if (c.dt > 0) config.dt = c.dt;
+    const std::uint64_t contacts =
+        expectLockstep([&] { return shippedScene(c.scene, c.entities).world; }, config, c.steps);
+    EXPECT_GT(contacts, 0u);
+}
+
+std::string nameOf(const testing::TestParamInfo<ShippedScenesOnDevice::ParamType>& test) {
+    const auto& [c, cells, law, precision] = test.param;
+    std::string text = c.scene + '_' + cells.name + '_' + std::string(name(law)) + '_' +
+                       std::string(name(precision));
+    for (char& letter : text) letter = letter == '-' ? '_' : letter;
+    return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ShippedScenesOnDevice,
+    testing::Combine(testing::Values(Case{"balanced", 3000, 40, 0.5}, Case{"imbalanced", 200, 20},
+                                     Case{"demo13k", 2000, 30, 0.1}, Case{"mixed-sizes", 600, 30},
+                                     Case{"pile", 300, 60}, Case{"cradle", {}, 100}),
+                     testing::ValuesIn(partitioners), testing::Values(Law::Impulse, Law::Baseline),
+                     testing::Values(Precision::Double, Precision::Float)),
+    nameOf);
+
+class RandomScenesOnDevice : public testing::TestWithParam<SceneKind> {};
+
+TEST_P(RandomScenesOnDevice, HaveTheBitsOfTheSequentialResolver) {
+    QUADRILLE_NEEDS_DEVICE();
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const Cells& cells = partitioners[seed % partitioners.size()];
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + cells.name);
+        expectLockstep([&] { return randomScene(GetParam(), seed); },
+                       {.partitioner = cells.config,
+                        .law = seed % 3 == 2 ? Law::Baseline : Law::Impulse,
+                        .precision = seed % 4 < 2 ? Precision::Double : Precision::Float,
+                        .gravity = {seed % 5 == 1 ? 20.0 : 0.0, seed % 2 == 0 ? 0.0 : -50.0},
+                        .restitution = seed % 3 == 0 ? 1 : 0.6},
+                       40);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomScenesOnDevice, testing::ValuesIn(sceneKinds),
+                         [](const auto& test) {
+                             std::string text(name(test.param));
+                             std::erase_if(text, [](char c) { return !std::isalnum(c); });
+                             return text;
+                         });
+
+class OptionsOnDevice : public testing::TestWithParam<std::tuple<int, CudaThread, Law>> {};
+
+TEST_P(OptionsOnDevice, ChangeNothing) {
+    QUADRILLE_NEEDS_DEVICE();
+    const auto& [blockSize, threadPer, law] = GetParam();
+    for (const PartitionerConfig& cells :
+         {PartitionerConfig(StaticGrid{}), PartitionerConfig(SemiStaticQuadtree{})}) {
+        SimulationConfig config = configOf(shippedScene("imbalanced", 200));
+        config.partitioner = cells;
+        config.law = law;
+        config.cuda = {.threadPer = threadPer, .blockSize = blockSize};
+        expectLockstep([] { return shippedScene("imbalanced", 200).world; }, config, 15);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Options, OptionsOnDevice,
+                         testing::Combine(testing::Values(32, 96, 256, 1024),
+                                          testing::Values(CudaThread::Cell, CudaThread::Body),
+                                          testing::Values(Law::Impulse, Law::Baseline)));
+
+/// More contacts than one block resolves, long chains of them, and several to a thread.
+TEST(CrowdsOnDevice, HaveTheBitsOfTheSequentialResolver) {
+    QUADRILLE_NEEDS_DEVICE();
+    for (const Law law : {Law::Impulse, Law::Baseline}) {
+        const auto crowd = [] {
+            World world({.size = {400, 400}, .seed = 7});
+            Random random(20261122);
+            for (int i = 0; i < 12'000; ++i) {
+                makeBox(world, {random.uniform(-190, 190), random.uniform(-190, 190)},
+                        moving(random.uniform(-40, 40), random.uniform(-40, 40),
+                               i % 7 == 0 ? 3.0 : 1.0),
+                        {3, 3});
+            }
+            // One body that meets thousands, moving and static.
+            makeBox(world, {0, 0}, moving(3, 2, 50), {250, 250});
+            world.addWalls({.thickness = 40});
+            return world;
+        };
+        const std::uint64_t contacts =
+            expectLockstep(crowd, {.partitioner = Quadtree{}, .law = law, .restitution = 0.9}, 4);
+        EXPECT_GT(contacts, 50'000u);
+    }
+}
+
+TEST(SmallWorldsOnDevice, HaveTheBitsOfTheSequentialResolver) {
+    QUADRILLE_NEEDS_DEVICE();
+    const auto world = [](int moving, int fixed) {
+        World w({.size = {64, 64}});
+        for (int i = 0; i < moving; ++i) makeBox(w, {i - 3.0, 0.25 * i}, quadrille::moving(10 - i));
+        for (int i = 0; i < fixed; ++i) makeBox(w, {6.0 + i, 0}, quadrille::fixed());
+        return w;
+    };
+    for (const Cells& cells : partitioners) {
+        for (const Law law : {Law::Impulse, Law::Baseline}) {
+            for (const auto& [moving, fixed] : {std::pair{0, 0}, {0, 3}, {1, 0}, {1, 1}, {5, 2}}) {
+                SCOPED_TRACE(cells.name + ", " + std::to_string(moving) + " moving, " +
+                             std::to_string(fixed) + " static");
+                expectLockstep([&] { return world(moving, fixed); },
+                               {.partitioner = cells.config, .law = law}, 60);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace quadrille

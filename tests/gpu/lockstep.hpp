@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include <quadrille/simulation.hpp>
+
+namespace quadrille {
+
+/// Makes a new world, the same each time.
+using MakeWorld = std::function<World()>;
+/// Changes a world before a step.
+using Edit = std::function<void(World&, std::uint64_t step)>;
+
+/// Runs the resolvers `cuda` and `sequential` side by side with a listener each, and expects the
+/// same state, the same counts and the same contacts in the same order after every step; and the
+/// same state from `cuda` without a listener. Returns the number of contacts.
+std::uint64_t expectLockstep(const MakeWorld& makeWorld, const SimulationConfig& config,
+                             std::uint64_t steps, const Edit& edit = {});
+
+}  // namespace quadrille
