@@ -91,8 +91,8 @@ struct Simulation::Impl {
 
     /// Says in the configuration what runs after a fallback.
     void noteFallback() {
-        const std::string& failure = std::visit(
-            [](const auto& s) -> const std::string& { return s.resolverFailure(); }, stepper);
+        const std::string failure =
+            std::visit([](const auto& s) { return std::string(s.resolverFailure()); }, stepper);
         if (failure.empty()) return;
         config.resolver = ResolverKind::Sequential;
         resolverFailure = failure;
