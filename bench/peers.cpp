@@ -1,10 +1,8 @@
 // The same scenes through Quadrille and through other 2D engines, in one process.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,6 +12,7 @@
 
 #include <quadrille/measure.hpp>
 
+#include "bench/command_line.hpp"
 #include "bench/memory.hpp"
 #include "bench/partitioner_spec.hpp"
 #include "bench/peer.hpp"
@@ -195,14 +194,5 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app("Runs the same scenes through Quadrille and other 2D engines.");
     addOptions(app, options);
-    try {
-        app.parse(argc, argv);
-        run(options);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    return quadrille::bench::runCommandLine(app, argc, argv, [&] { run(options); });
 }

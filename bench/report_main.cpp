@@ -1,14 +1,12 @@
 // Speed against error, rebuild policies, and what features cost, as tables in a folder; the figures
 // are drawn from them by report_figures.py.
 
-#include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
-#include <iostream>
 #include <string>
 
 #include <quadrille/error.hpp>
 
+#include "bench/command_line.hpp"
 #include "bench/report_parts.hpp"
 
 namespace {
@@ -50,14 +48,5 @@ int main(int argc, char** argv) {
     CLI::App app("Measures speed against error.");
     app.add_option("--output", options.output, "folder for the tables")->required();
     app.add_flag("--quick", options.quick, "small scenes, few steps");
-    try {
-        app.parse(argc, argv);
-        run(options);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    return quadrille::bench::runCommandLine(app, argc, argv, [&] { run(options); });
 }

@@ -1,10 +1,8 @@
 // The report's experiments, with this engine's figures beside the report's.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -13,6 +11,7 @@
 
 #include <quadrille/error.hpp>
 
+#include "bench/command_line.hpp"
 #include "bench/partitioner_spec.hpp"
 #include "bench/report_figures.hpp"
 #include "bench/scene_runs.hpp"
@@ -257,18 +256,11 @@ int main(int argc, char** argv) {
     app.add_option("--repeat", options.protocol.repeats, "runs of each row")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    try {
-        app.parse(argc, argv);
+    return quadrille::bench::runCommandLine(app, argc, argv, [&] {
         std::filesystem::create_directories(options.folder);
         reportCurves(options);
         speedups(options);
         cells(options);
         profile(options);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    });
 }

@@ -1,8 +1,6 @@
 // Whole scenes under every partitioner, law and precision asked for, as a table.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -10,6 +8,7 @@
 
 #include <quadrille/error.hpp>
 
+#include "bench/command_line.hpp"
 #include "bench/partitioner_spec.hpp"
 #include "bench/plan.hpp"
 #include "bench/scene_runs.hpp"
@@ -188,14 +187,5 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app("Times whole scenes.");
     addOptions(app, options);
-    try {
-        app.parse(argc, argv);
-        run(options);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    return quadrille::bench::runCommandLine(app, argc, argv, [&] { run(options); });
 }
