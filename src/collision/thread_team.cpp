@@ -53,15 +53,16 @@ void waitUntil(const std::atomic<Word>& word, Done&& done) {
 
 /// What the caller, who is thread 0, shares with the other threads.
 ///
-/// A thread takes its own part of a loop first, so that it finds in its cache what it left there,
-/// and then any that nobody has begun. The caller does the same, and waits for those parts only
+/// A thread takes its own workers of a loop first, so that it finds in its cache what it left
+/// there, and then any that nobody has begun. The caller does the same, and waits for those only
 /// that others have begun: a thread that does not get a core holds nobody up.
 struct ThreadTeam::Shared {
-    struct alignas(64) Part {
-        std::atomic<bool> open{false};
+    /// How many of a thread's workers have been begun, by whomever.
+    struct alignas(64) Begun {
+        std::atomic<std::uint32_t> count{workersPerThread};
     };
 
-    explicit Shared(unsigned size) : parts(size) {
+    explicit Shared(unsigned size) : begun(size) {
         try {
             for (unsigned i = 1; i < size; ++i) threads.emplace_back([this, i] { serve(i); });
         } catch (...) {
@@ -84,20 +85,24 @@ struct ThreadTeam::Shared {
         while (!stop.load(std::memory_order_relaxed)) {
             waitUntil(round, [&] { return round.load(std::memory_order_acquire) != seen; });
             seen = round.load(std::memory_order_acquire);
-            takeParts(thread);
+            takeWorkers(thread);
         }
     }
 
-    void takeParts(unsigned thread) {
-        const auto count = static_cast<unsigned>(parts.size());
-        for (unsigned i = 0; i < count; ++i) {
-            const unsigned part = (thread + i) % count;
-            // Reading first leaves the line where it is. A part that is open belongs to the loop
-            // that `call` and `context` describe, even if this thread woke up for an earlier one.
-            if (!parts[part].open.load(std::memory_order_relaxed)) continue;
-            if (!parts[part].open.exchange(false, std::memory_order_acq_rel)) continue;
-            failure->guard([&] { call(context, part); });
-            if (pending.fetch_sub(1, std::memory_order_acq_rel) == 1) pending.notify_one();
+    void takeWorkers(unsigned thread) {
+        const auto threadCount = static_cast<unsigned>(begun.size());
+        for (unsigned i = 0; i < threadCount; ++i) {
+            const unsigned owner = (thread + i) % threadCount;
+            auto& count = begun[owner].count;
+            // Reading first leaves the line where it is. A worker that nobody has begun belongs to
+            // the loop that `call` and `context` describe, even if this thread woke up for an
+            // earlier one.
+            while (count.load(std::memory_order_relaxed) < workersPerThread) {
+                const unsigned next = count.fetch_add(1, std::memory_order_acq_rel);
+                if (next >= workersPerThread) break;
+                failure->guard([&] { call(context, owner * workersPerThread + next); });
+                if (pending.fetch_sub(1, std::memory_order_acq_rel) == 1) pending.notify_one();
+            }
         }
     }
 
@@ -106,27 +111,29 @@ struct ThreadTeam::Shared {
         call = function;
         context = argument;
         failure = &first;
-        pending.store(static_cast<std::uint32_t>(parts.size()), std::memory_order_relaxed);
-        for (Part& part : parts) part.open.store(true, std::memory_order_release);
+        pending.store(static_cast<std::uint32_t>(begun.size()) * workersPerThread,
+                      std::memory_order_relaxed);
+        for (Begun& thread : begun) thread.count.store(0, std::memory_order_release);
         round.fetch_add(1, std::memory_order_release);
         round.notify_all();
-        takeParts(0);
+        takeWorkers(0);
         waitUntil(pending, [&] { return pending.load(std::memory_order_acquire) == 0; });
         first.rethrow();
     }
 
-    std::vector<Part> parts;
+    std::vector<Begun> begun;  // one a thread
     void (*call)(const void*, unsigned) = nullptr;
     const void* context = nullptr;
     Failure* failure = nullptr;
     alignas(64) std::atomic<std::uint32_t> round{0};    ///< counts the loops
-    alignas(64) std::atomic<std::uint32_t> pending{0};  ///< parts that are not done
+    alignas(64) std::atomic<std::uint32_t> pending{0};  ///< workers that are not done
     std::atomic<bool> stop{false};
     std::vector<std::thread> threads;
 };
 
-ThreadTeam::ThreadTeam(unsigned threads, bool eager) : size_(std::max(1u, threads)), eager_(eager) {
-    if (size_ > 1) shared_ = std::make_unique<Shared>(size_);
+ThreadTeam::ThreadTeam(unsigned threads, bool eager)
+    : threads_(std::max(1u, threads)), eager_(eager) {
+    if (threads_ > 1) shared_ = std::make_unique<Shared>(threads_);
 }
 
 ThreadTeam::~ThreadTeam() = default;

@@ -10,6 +10,9 @@
 namespace quadrille {
 
 /// Threads that share out the loops of a step. docs/decisions.md tells why not by OpenMP.
+///
+/// A loop is cut into workers, several to a thread: a thread that gets less of its core than the
+/// others leaves them some of its workers.
 class ThreadTeam {
   public:
     /// `eager` makes loops parallel however short they are, so that small tests reach that code.
@@ -24,12 +27,14 @@ class ThreadTeam {
     /// Cores that this process may use, at least 1.
     static unsigned cores();
 
-    unsigned size() const { return size_; }
+    unsigned threads() const { return threads_; }
+    /// Workers that a loop is cut into; 1 if there is one thread.
+    unsigned size() const { return threads_ == 1 ? 1 : threads_ * workersPerThread; }
     bool eager() const { return eager_; }
 
     /// The workers for a loop of `count` items that pays off from `least` items on: all or one.
     unsigned workersFor(std::size_t count, std::size_t least) const {
-        return eager_ || count >= least ? size_ : 1;
+        return eager_ || count >= least ? size() : 1;
     }
 
     /// Calls `function(worker)` once for every worker below `workers`, which is what workersFor
@@ -114,10 +119,11 @@ class ThreadTeam {
 
   private:
     struct Shared;
+    static constexpr unsigned workersPerThread = 4;
 
     void fork(void (*call)(const void*, unsigned), const void* context) const;
 
-    unsigned size_;
+    unsigned threads_;
     bool eager_;
     std::unique_ptr<Shared> shared_;  // null for one thread
 };
@@ -130,6 +136,8 @@ inline constexpr std::size_t tested = 16'000;    ///< pairs whose boxes are comp
 inline constexpr std::size_t built = 8'000;      ///< bodies that cells are made for
 inline constexpr std::size_t walked = 1'500;     ///< bodies whose cells are walked through
 inline constexpr std::size_t resolved = 300;     ///< contacts
+inline constexpr std::size_t scattered = 500;    ///< bodies that are written here and there
+inline constexpr std::size_t copied = 200'000;   ///< bytes
 }  // namespace worthwhile
 
 }  // namespace quadrille

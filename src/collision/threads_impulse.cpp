@@ -52,8 +52,8 @@ ResolveCounts ThreadsImpulse<Real>::resolve(const BodyView<Real>& view,
             counts.collisions += worker.counts.collisions;
         }
     }
-    const unsigned workers = team_.workersFor(pending(), 4 * worthwhile::resolved);
-    if (parallel && workers > 1 && (workers >= graphThreads || team_.eager())) {
+    const bool several = team_.workersFor(pending(), 4 * worthwhile::resolved) > 1;
+    if (parallel && several && (team_.threads() >= graphThreads || team_.eager())) {
         graph_.link(found_, view.moving.size());
         const ResolveCounts rest = graph_.resolve(bodies, step);
         counts.contacts += rest.contacts;

@@ -33,7 +33,7 @@ class Stepper {
     /// Why the resolver that was asked for was replaced by the sequential one; empty if it was not.
     const std::string& resolverFailure() const { return resolverFailure_; }
     /// That share out the loops of a step.
-    unsigned threads() const { return team_->size(); }
+    unsigned threads() const { return team_->threads(); }
 
     const Cells& cells() const { return partitioner_->partition().cells; }
     std::size_t bytes() const {

@@ -24,10 +24,10 @@ class Team : public testing::TestWithParam<unsigned> {
 INSTANTIATE_TEST_SUITE_P(Threads, Team, testing::Values(1u, 2u, 3u, 7u, 16u));
 
 TEST_P(Team, RunsEveryWorkerOnceInEveryLoop) {
-    std::vector<int> calls(GetParam());
+    std::vector<int> calls(team.size());
     for (int loop = 1; loop <= 2000; ++loop) {
         team.run(team.size(), [&](unsigned worker) { ++calls[worker]; });
-        ASSERT_EQ(std::count(calls.begin(), calls.end(), loop), std::ptrdiff_t(GetParam()));
+        ASSERT_EQ(std::count(calls.begin(), calls.end(), loop), std::ptrdiff_t(team.size()));
     }
 }
 
@@ -35,7 +35,7 @@ TEST_P(Team, SharesAndBlocksCoverEverythingOnce) {
     for (const std::size_t count : {0, 1, 5, 16, 17, 1000}) {
         std::vector<int> shared(count), taken(count);
         team.shares(count, 0, [&](std::size_t begin, std::size_t end, unsigned worker) {
-            EXPECT_LT(worker, GetParam());
+            EXPECT_LT(worker, team.size());
             for (std::size_t i = begin; i < end; ++i) ++shared[i];
         });
         team.blocks(team.size(), count, 3, [&](std::size_t begin, std::size_t end, unsigned) {
@@ -69,13 +69,13 @@ TEST_P(Team, PassesAnExceptionOnAndGoesOn) {
         EXPECT_THROW(team.run(team.size(),
                               [&](unsigned worker) {
                                   ++calls;
-                                  if (worker == GetParam() - 1) throw std::runtime_error("here");
+                                  if (worker == team.size() - 1) throw std::runtime_error("here");
                               }),
                      std::runtime_error);
-        EXPECT_EQ(calls, GetParam());
+        EXPECT_EQ(calls, team.size());
         calls = 0;
         team.run(team.size(), [&](unsigned) { ++calls; });
-        EXPECT_EQ(calls, GetParam());
+        EXPECT_EQ(calls, team.size());
     }
 }
 
@@ -109,7 +109,7 @@ TEST_P(Team, ReductionsHaveTheBitsOfOneThread) {
 TEST(ThreadTeam, ShortLoopsStayOnTheCallersThread) {
     const ThreadTeam team(4);
     EXPECT_EQ(team.workersFor(99, 100), 1u);
-    EXPECT_EQ(team.workersFor(100, 100), 4u);
+    EXPECT_EQ(team.workersFor(100, 100), team.size());
     const auto caller = std::this_thread::get_id();
     team.shares(99, 100, [&](std::size_t begin, std::size_t end, unsigned worker) {
         EXPECT_EQ(std::this_thread::get_id(), caller);
@@ -119,8 +119,26 @@ TEST(ThreadTeam, ShortLoopsStayOnTheCallersThread) {
 }
 
 TEST(ThreadTeam, HasAtLeastOneThread) {
+    EXPECT_EQ(ThreadTeam(0).threads(), 1u);
     EXPECT_EQ(ThreadTeam(0).size(), 1u);
     EXPECT_GE(ThreadTeam::cores(), 1u);
+}
+
+/// Several workers to a thread: one that is held up loses only the one it has begun.
+TEST(ThreadTeam, ASlowThreadLeavesItsWorkersToOthers) {
+    const ThreadTeam team(2, true);
+    ASSERT_GT(team.size(), 2u);
+    std::atomic<unsigned> others{0};
+    std::atomic<bool> waited{false};
+    team.run(team.size(), [&](unsigned) {
+        if (waited.exchange(true)) {
+            ++others;
+            return;
+        }
+        // The first to begin waits until all others have been done, whoever's they were.
+        while (others < team.size() - 1) std::this_thread::yield();
+    });
+    EXPECT_EQ(others, team.size() - 1);
 }
 
 TEST(ThreadTeam, SleepingThreadsWakeUp) {
@@ -128,8 +146,8 @@ TEST(ThreadTeam, SleepingThreadsWakeUp) {
     for (int loop = 0; loop < 20; ++loop) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         std::atomic<unsigned> calls{0};
-        team.run(4, [&](unsigned) { ++calls; });
-        ASSERT_EQ(calls, 4u);
+        team.run(team.size(), [&](unsigned) { ++calls; });
+        ASSERT_EQ(calls, team.size());
     }
 }
 
