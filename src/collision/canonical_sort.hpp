@@ -28,6 +28,7 @@ class CanonicalSort {
             return atStart + (inside ? static_cast<std::uint64_t>(bucket) : later - 1);
         };
 
+        if (contacts.size() > ends_.capacity()) ends_.reserve(2 * contacts.size());
         ends_.assign(contacts.size(), 0);
         for (const auto& c : contacts) ++ends_[bucketOf(c)];
         std::uint32_t end = 0;

@@ -18,6 +18,7 @@ namespace quadrille {
 template <class Real>
 struct Partition {
     Cells cells;
+    FineGrid<Real> grid;            ///< what the cells are made of
     std::vector<FineRange> ranges;  ///< of every body when the cells were made
     Real margin = 0;                ///< by how much boxes were inflated on each side, px
     bool complete = true;           ///< every overlapping pair shares a cell

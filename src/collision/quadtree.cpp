@@ -5,14 +5,9 @@
 
 #include <quadrille/error.hpp>
 
+#include "collision/body_ranges.hpp"
+
 namespace quadrille {
-
-namespace {
-
-/// Nodes to share out for each worker: more even out the work, fewer leave more of it to it.
-constexpr std::size_t nodesPerWorker = 4;
-
-}  // namespace
 
 template <class Real>
 QuadtreeBuilder<Real>::QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2& worldSize,
@@ -20,8 +15,6 @@ QuadtreeBuilder<Real>::QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2&
     : maxDepth_(maxDepth),
       maxPerCell_(static_cast<std::size_t>(maxPerCell)),
       worldSize_(worldSize),
-      grid_(-worldSize / 2, worldSize / double(1 << (maxDepth & 15)), 1u << (maxDepth & 15),
-            1u << (maxDepth & 15)),
       team_(team),
       pieces_(team.size()) {
     if (maxDepth < 0 || maxDepth > 15) throw Error("quadtree: the depth must be from 0 to 15");
@@ -30,29 +23,30 @@ QuadtreeBuilder<Real>::QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2&
 
 template <class Real>
 void QuadtreeBuilder<Real>::build(const BodyView<Real>& bodies, Partition<Real>& partition) {
-    grid_.ranges(bodies, partition.margin, partition.ranges, team_);
-    const std::size_t count = partition.ranges.size();
-    TreeReference* const references = root_.reserve(count);
-    team_.shares(count, worthwhile::streamed, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t i = begin; i < end; ++i) {
-            references[i] = {partition.ranges[i], static_cast<std::uint32_t>(i)};
-        }
-    });
-    const TreeNode root{references, count, 0, 0, maxDepth_};
+    const Vec2 fineCell = worldSize_ / double(1 << maxDepth_);
+    partition.grid =
+        makeFineGrid<Real>(-worldSize_ / 2, fineCell, 1u << maxDepth_, 1u << maxDepth_);
+    const std::size_t count = bodies.size();
+    partition.ranges.resize(count);
+    const auto nodes = splitter_.split(
+        partition.ranges,
+        [&](std::size_t begin, std::size_t end) {
+            findRanges(partition.grid, bodies, partition.margin, begin, end,
+                       partition.ranges.data());
+        },
+        maxDepth_, maxPerCell_, team_);
     Cells& cells = partition.cells;
-    const unsigned workers = team_.workersFor(count, worthwhile::built);
-    if (workers == 1) {
+    if (team_.workersFor(count, worthwhile::built) == 1) {
         SubtreeBuilder& builder = pieces_.front().builder;
         builder.start(cells, maxPerCell_);
-        builder.add(root);
+        for (const TreeNode& node : nodes) builder.add(node);
         builder.finish();
     } else {
-        const std::size_t enough = count / (nodesPerWorker * workers);
-        buildPieces(splitter_.split(root, maxPerCell_, enough, team_));
+        buildPieces(nodes);
         join(cells);
     }
     cells.origin = -worldSize_ / 2;
-    cells.fineCell = worldSize_ / double(1 << maxDepth_);
+    cells.fineCell = fineCell;
     ++partition.generation;
 }
 
@@ -60,18 +54,27 @@ template <class Real>
 void QuadtreeBuilder<Real>::buildPieces(std::span<const TreeNode> nodes) {
     std::size_t total = 0;
     for (const TreeNode& node : nodes) total += node.count;
-    const std::size_t workers = pieces_.size();
+    std::size_t done = 0;
+    std::size_t next = 0;
+    for (std::size_t worker = 0; worker < pieces_.size(); ++worker) {
+        const std::size_t first = next;
+        const bool last = worker + 1 == pieces_.size();
+        while (next < nodes.size() && (last || done < total * (worker + 1) / pieces_.size())) {
+            done += nodes[next++].count;
+        }
+        pieces_[worker].nodes = nodes.subspan(first, next - first);
+    }
     team_.run(team_.size(), [&](unsigned worker) {
         Piece& piece = pieces_[worker];
+        // Room for more than last time, since the worker may get a node more.
+        const auto makeRoom = [](auto& column) {
+            if (2 * column.size() > column.capacity()) column.reserve(4 * column.size());
+        };
+        makeRoom(piece.cells.offsets);
+        makeRoom(piece.cells.bodies);
+        makeRoom(piece.cells.coordinates);
         piece.builder.start(piece.cells, maxPerCell_);
-        std::size_t before = 0;
-        for (const TreeNode& node : nodes) {
-            // A node goes to the worker in whose share of the references its first one lies; empty
-            // ones at the end have none, and go to the last.
-            const std::size_t owner = before * workers / std::max<std::size_t>(total, 1);
-            if (std::min(owner, workers - 1) == worker) piece.builder.add(node);
-            before += node.count;
-        }
+        for (const TreeNode& node : piece.nodes) piece.builder.add(node);
         piece.builder.finish();
     });
 }
@@ -109,7 +112,7 @@ void QuadtreeBuilder<Real>::join(Cells& cells) {
 
 template <class Real>
 std::size_t QuadtreeBuilder<Real>::bytes() const {
-    std::size_t sum = root_.bytes() + splitter_.bytes();
+    std::size_t sum = splitter_.bytes();
     for (const Piece& piece : pieces_) {
         sum += piece.builder.bytes() + piece.cells.offsets.capacity() * sizeof(std::uint32_t) +
                piece.cells.bodies.capacity() * sizeof(std::uint32_t) +

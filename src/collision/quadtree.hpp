@@ -11,8 +11,8 @@
 namespace quadrille {
 
 /// Builds the leaves of a quadtree, in Z order, top down. Bodies are quantised once to the cells of
-/// the deepest level, so every decision of the tree is a comparison of integers. Large trees are
-/// split on all threads first; then every thread builds some of what lies below.
+/// the deepest level, so every decision of the tree is a comparison of integers. A large tree is
+/// cut into nodes first, by all threads at once; then every thread builds some of these.
 template <class Real>
 class QuadtreeBuilder {
   public:
@@ -27,6 +27,7 @@ class QuadtreeBuilder {
   private:
     /// Neighbouring leaves that one thread builds.
     struct alignas(64) Piece {
+        std::span<const TreeNode> nodes;
         SubtreeBuilder builder;
         Cells cells;
         std::size_t firstCell = 0, firstEntry = 0;  // in the whole
@@ -38,9 +39,7 @@ class QuadtreeBuilder {
     int maxDepth_;
     std::size_t maxPerCell_;
     Vec2 worldSize_;
-    FineGrid<Real> grid_;
     const ThreadTeam& team_;
-    ReferenceBuffer root_;
     TreeSplitter splitter_;
     std::vector<Piece> pieces_;  // one a worker; a single one writes to the partition itself
 };

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <vector>
 
 #include "collision/partitioner.hpp"
 
 namespace quadrille {
 
-/// Equal cells over the world, filled anew each step by a counting sort.
+/// Equal cells over the world, filled anew each step by a counting sort. Several threads first sort
+/// the bodies into strips of rows, and then the strips one by one.
 template <class Real>
 class StaticGridPartitioner final : public Partitioner<Real> {
   public:
@@ -21,23 +21,33 @@ class StaticGridPartitioner final : public Partitioner<Real> {
     std::size_t bytes() const override;
 
   private:
-    void fill();
-    void fillInParallel();
-    void requireCountable(std::uint64_t entries) const;
+    /// Rows of cells, from the first to before the last, and the bodies that touch them.
+    struct Strip {
+        std::uint32_t firstRow, lastRow;
+        std::size_t firstMember = 0, lastMember = 0;  // in members_
+        std::uint64_t entries = 0;
+    };
+
+    void layStrips(std::size_t count);
+    void sortIntoStrips(const BodyView<Real>& bodies, unsigned workers);
+    template <class Member>
+    std::uint64_t countRows(const Strip& strip, std::size_t count, Member&& member);
+    template <class Member>
+    void fillRows(const Strip& strip, std::size_t count, Member&& member, std::uint32_t begin);
+    void reserveEntries(std::uint64_t entries);
 
     template <class Function>
-    void forEachCell(const FineRange& range, Function&& function) const {
-        for (std::uint32_t y = range.y0; y <= range.y1; ++y) {
-            const std::size_t row = std::size_t(y) * columns_;
-            for (std::uint32_t x = range.x0; x <= range.x1; ++x) function(row + x);
-        }
-    }
+    void forEachCell(const Strip& strip, const FineRange& range, Function&& function) const;
+    template <class Function>
+    void forEachStrip(const FineRange& range, Function&& function) const;
 
     std::uint32_t columns_, rows_;
-    FineGrid<Real> grid_;
     const ThreadTeam& team_;
-    /// Bodies in each cell, and then where the next one goes; null while one thread suffices.
-    std::unique_ptr<std::atomic<std::uint32_t>[]> cursors_;
+    // Where there is more than one strip:
+    std::vector<Strip> strips_;
+    std::vector<std::uint32_t> stripOfRow_;
+    std::vector<std::uint32_t> places_;   // of each worker's members in each strip
+    std::vector<std::uint32_t> members_;  // bodies, strip by strip, in ascending order
 };
 
 }  // namespace quadrille

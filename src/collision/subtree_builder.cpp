@@ -22,7 +22,7 @@ void SubtreeBuilder::add(const TreeNode& node) {
         return;
     }
     ReferenceBuffer& level = levels_[static_cast<std::size_t>(node.shift)];
-    if (level.capacity() < 4 * node.count) level.reserve(4 * node.count);
+    if (level.capacity() < 4 * node.count) level.reserve(8 * node.count);
     const std::size_t stride = level.capacity() / 4;
     std::array<TreeReference*, 4> child;
     for (std::size_t k = 0; k < 4; ++k) child[k] = level.data() + k * stride;

@@ -59,13 +59,15 @@ struct TreeNode {
         const std::uint32_t half = 1u << (shift - 1);
         return {first, size, x + (k & 1 ? half : 0), y + (k & 2 ? half : 0), shift - 1};
     }
+    bool coveredBy(const FineRange& range) const {
+        const std::uint32_t side = 1u << shift;
+        return range.x0 <= x && range.x1 >= x + side - 1 && range.y0 <= y &&
+               range.y1 >= y + side - 1;
+    }
     /// Whether all its bodies cover the node entirely: then no split could part them.
     bool covered() const {
-        const std::uint32_t lastX = x + (1u << shift) - 1;
-        const std::uint32_t lastY = y + (1u << shift) - 1;
-        return std::all_of(references, references + count, [&](const TreeReference& r) {
-            return r.range.x0 <= x && r.range.x1 >= lastX && r.range.y0 <= y && r.range.y1 >= lastY;
-        });
+        return std::all_of(references, references + count,
+                           [&](const TreeReference& r) { return coveredBy(r.range); });
     }
 };
 

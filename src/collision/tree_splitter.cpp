@@ -1,129 +1,202 @@
 #include "collision/tree_splitter.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <utility>
+
+#include <quadrille/error.hpp>
 
 namespace quadrille {
 
 namespace {
 
-constexpr std::size_t blockSize = 4096;  // references
+/// References of a node: as many as a thread builds in its cache, or where there are few, about
+/// four nodes for each worker, but not less than pays.
+constexpr std::size_t most = 1024;
+constexpr std::size_t fewest = 128;
+constexpr std::size_t nodesPerWorker = 4;
+/// Levels to go down at once: with 1,365 squares to sort into, the counts stay in the cache.
+constexpr int mostLevels = 5;
+/// Bodies whose ranges are found and looked at before those of the next.
+constexpr std::size_t block = 1024;
 
-/// Spreads the 16 low bits over the even places.
-std::uint32_t spread(std::uint32_t v) {
-    v = (v | (v << 8)) & 0x00ff'00ffu;
-    v = (v | (v << 4)) & 0x0f0f'0f0fu;
-    v = (v | (v << 2)) & 0x3333'3333u;
-    return (v | (v << 1)) & 0x5555'5555u;
+/// The squares that a body touches, with a side of 2^shift fine cells: all four coordinates are
+/// shifted at once.
+FineRange squaresOf(const FineRange& range, int shift) {
+    const std::uint64_t kept = (0xffffu >> shift) * 0x0001'0001'0001'0001u;
+    return std::bit_cast<FineRange>(std::bit_cast<std::uint64_t>(range) >> shift & kept);
 }
 
-/// Place of a node in Z order, of nodes that do not overlap.
-std::uint32_t zOrder(const TreeNode& node) { return spread(node.x) | (spread(node.y) << 1); }
+bool oneSquare(const FineRange& squares) {
+    return squares.x0 == squares.x1 && squares.y0 == squares.y1;
+}
+
+template <class Function>
+void forEachSquare(const FineRange& squares, Function&& function) {
+    for (std::uint32_t y = squares.y0; y <= squares.y1; ++y) {
+        for (std::uint32_t x = squares.x0; x <= squares.x1; ++x) function(x, y);
+    }
+}
+
+TreeNode nodeAt(std::uint32_t x, std::uint32_t y, int shift) {
+    return {nullptr, 0, x << shift, y << shift, shift};
+}
 
 }  // namespace
 
-std::span<const TreeNode> TreeSplitter::split(const TreeNode& root, std::size_t maxPerCell,
-                                              std::size_t enough, const ThreadTeam& team) {
-    done_.clear();
-    open_.clear();
-    const auto sortOut = [&](const TreeNode& node) {
-        const bool small = node.count <= std::max(enough, maxPerCell) || node.shift == 0;
-        (small ? done_ : open_).push_back(node);
-    };
-    sortOut(root);
-    for (int shift = root.shift; !open_.empty(); --shift) {
-        splitLevel(levels_[static_cast<std::size_t>(shift)], team);
-        open_.clear();
-        for (const TreeNode& node : next_) sortOut(node);
-    }
-    std::sort(done_.begin(), done_.end(),
-              [](const TreeNode& p, const TreeNode& q) { return zOrder(p) < zOrder(q); });
-    return done_;
+std::span<const TreeNode> TreeSplitter::split(
+    std::span<const FineRange> ranges,
+    const std::function<void(std::size_t, std::size_t)>& findRanges, int maxDepth,
+    std::size_t maxPerCell, const ThreadTeam& team) {
+    const std::size_t bodies = ranges.size();
+    const unsigned workers = team.workersFor(bodies, worthwhile::built);
+    const std::size_t share = std::clamp(bodies / (nodesPerWorker * workers), fewest, most);
+    const std::size_t enough = std::max(maxPerCell, team.eager() ? 1 : share);
+    maxDepth_ = maxDepth;
+    depth_ = 0;
+    while (depth_ < std::min(mostLevels, maxDepth) && (bodies >> 2 * depth_) > 2 * enough) ++depth_;
+
+    counts_.resize(workers * stride());
+    team.shares(bodies, worthwhile::built, [&](std::size_t b, std::size_t e, unsigned worker) {
+        const Histogram own = histogram(worker);
+        std::fill(own.touching, own.touching + 3 * squares(), 0);
+        for (std::size_t first = b; first < e; first += block) {
+            const std::size_t size = std::min(e - first, block);
+            findRanges(first, first + size);
+            count(ranges.subspan(first, size), own);
+        }
+        sumUp(own);
+    });
+    chooseParts(workers, enough);
+    TreeReference* const out = makeRoom(workers);
+    team.shares(bodies, worthwhile::built, [&](std::size_t b, std::size_t e, unsigned worker) {
+        place(ranges, b, e, histogram(worker).touching, out);
+    });
+    return nodes_;
 }
 
-void TreeSplitter::cutIntoBlocks() {
-    blocks_.clear();
-    for (std::size_t n = 0; n < open_.size(); ++n) {
-        for (std::size_t begin = 0; begin < open_[n].count; begin += blockSize) {
-            blocks_.push_back({n, begin, std::min(open_[n].count, begin + blockSize), {}});
+TreeSplitter::Histogram TreeSplitter::histogram(unsigned worker) {
+    std::uint32_t* const begin = counts_.data() + worker * stride();
+    return {begin, begin + squares(), begin + 2 * squares()};
+}
+
+/// Counts bodies that touch a single square of the lowest level there, and others in each square of
+/// each level.
+void TreeSplitter::count(std::span<const FineRange> ranges, const Histogram& own) const {
+    for (const FineRange& range : ranges) {
+        const FineRange lowest = squaresOf(range, maxDepth_ - depth_);
+        if (oneSquare(lowest)) {
+            ++own.touching[number(depth_, lowest.x0, lowest.y0)];
+            continue;
+        }
+        for (int level = depth_; level >= 0; --level) {
+            const int shift = maxDepth_ - level;
+            forEachSquare(squaresOf(range, shift), [&](std::uint32_t x, std::uint32_t y) {
+                const std::size_t square = number(level, x, y);
+                ++own.several[square];
+                own.covering[square] += nodeAt(x, y, shift).coveredBy(range);
+            });
         }
     }
 }
 
-/// A stable counting sort of the references of every open node into its quadrants, as one thread
-/// would do it.
-void TreeSplitter::splitLevel(ReferenceBuffer& memory, const ThreadTeam& team) {
-    cutIntoBlocks();
-    team.shares(blocks_.size(), 2, [&](std::size_t first, std::size_t last, unsigned) {
-        for (std::size_t b = first; b < last; ++b) {
-            Block& block = blocks_[b];
-            const TreeNode& node = open_[block.node];
-            std::array<std::size_t, 4> count{};
-            for (std::size_t i = block.begin; i < block.end; ++i) {
-                const auto [left, right, low, high] = node.touched(node.references[i].range);
-                count[0] += left & low;
-                count[1] += right & low;
-                count[2] += left & high;
-                count[3] += right & high;
+/// Adds up what count() has counted in two ways.
+void TreeSplitter::sumUp(const Histogram& own) const {
+    for (int level = depth_ - 1; level >= 0; --level) {
+        for (std::size_t y = 0; y < std::size_t(1) << level; ++y) {
+            for (std::size_t x = 0; x < std::size_t(1) << level; ++x) {
+                const std::uint32_t* const low = own.touching + number(level + 1, 2 * x, 2 * y);
+                const std::uint32_t* const high =
+                    own.touching + number(level + 1, 2 * x, 2 * y + 1);
+                own.touching[number(level, x, y)] = low[0] + low[1] + high[0] + high[1];
             }
-            block.out = count;
         }
-    });
+    }
+    for (std::size_t s = 0; s < squares(); ++s) own.touching[s] += own.several[s];
+}
 
-    // Node by node and quadrant by quadrant: where each list begins, and in it each block.
-    next_.clear();
-    std::size_t place = 0;
-    for (std::size_t begin = 0, end; begin < blocks_.size(); begin = end) {
-        const std::size_t n = blocks_[begin].node;
-        for (end = begin; end < blocks_.size() && blocks_[end].node == n;) ++end;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::size_t start = place;
-            for (std::size_t b = begin; b < end; ++b) {
-                place += std::exchange(blocks_[b].out[k], place);
-            }
-            next_.push_back(open_[n].quadrant(k, nullptr, place - start));
+void TreeSplitter::chooseParts(unsigned workers, std::size_t enough) {
+    touching_.assign(squares(), 0);
+    covering_.assign(squares(), 0);
+    for (unsigned worker = 0; worker < workers; ++worker) {
+        const Histogram own = histogram(worker);
+        for (std::size_t s = 0; s < squares(); ++s) {
+            touching_[s] += own.touching[s];
+            covering_[s] += own.covering[s];
         }
     }
-    TreeReference* const out = memory.reserve(place);
-    place = 0;
-    for (TreeNode& node : next_) {
-        node.references = out + place;
-        place += node.count;
-    }
+    parts_.clear();
+    partOf_.resize(std::size_t(1) << 2 * depth_);
+    addParts(enough, 0, 0, 0);
+}
 
-    team.shares(blocks_.size(), 2, [&](std::size_t first, std::size_t last, unsigned) {
-        for (std::size_t b = first; b < last; ++b) {
-            Block& block = blocks_[b];
-            const TreeNode& node = open_[block.node];
-            for (std::size_t i = block.begin; i < block.end; ++i) {
-                const TreeReference& r = node.references[i];
-                const auto [left, right, low, high] = node.touched(r.range);
-                if (left & low) out[block.out[0]++] = r;
-                if (right & low) out[block.out[1]++] = r;
-                if (left & high) out[block.out[2]++] = r;
-                if (right & high) out[block.out[3]++] = r;
-            }
+/// In Z order. As in building, a square whose bodies all cover it is not split.
+void TreeSplitter::addParts(std::size_t enough, int level, std::uint32_t x, std::uint32_t y) {
+    const std::size_t square = number(level, x, y);
+    const bool covered = covering_[square] == touching_[square];
+    if (level < depth_ && touching_[square] > enough && !covered) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            addParts(enough, level + 1, 2 * x + (k & 1), 2 * y + (k >> 1));
         }
-    });
-    // As a thread alone would: what all its bodies cover stays in one piece.
-    for (std::size_t n = 0; n < open_.size(); ++n) {
-        const auto quadrants = next_.begin() + static_cast<std::ptrdiff_t>(4 * n);
-        const bool all = std::all_of(quadrants, quadrants + 4,
-                                     [&](const TreeNode& q) { return q.count == open_[n].count; });
-        if (all && open_[n].covered()) {
-            done_.push_back(open_[n]);
-            // Left without bodies and marked to be dropped.
-            for (auto q = quadrants; q != quadrants + 4; ++q) q->references = nullptr;
+        return;
+    }
+    const int below = depth_ - level;
+    for (std::size_t row = std::size_t(y) << below; row < std::size_t(y + 1) << below; ++row) {
+        std::uint32_t* const first = partOf_.data() + (row << depth_) + (std::size_t(x) << below);
+        std::fill(first, first + (std::size_t(1) << below),
+                  static_cast<std::uint32_t>(parts_.size()));
+    }
+    parts_.push_back({level, x, y, square});
+}
+
+/// Finds where the references of each part begin, and in them each worker's, and makes the nodes.
+TreeReference* TreeSplitter::makeRoom(unsigned workers) {
+    std::uint64_t next = 0;
+    for (const Part& part : parts_) {
+        for (unsigned worker = 0; worker < workers; ++worker) {
+            std::uint32_t& count = histogram(worker).touching[part.square];
+            next += std::exchange(count, static_cast<std::uint32_t>(next));
         }
     }
-    std::erase_if(next_, [](const TreeNode& node) { return node.references == nullptr; });
+    if (next > std::numeric_limits<std::uint32_t>::max()) {
+        throw Error("quadtree: its nodes hold more references than 32 bits can count");
+    }
+    TreeReference* const out = references_.reserve(next);
+    nodes_.clear();
+    next = 0;
+    for (const Part& part : parts_) {
+        TreeNode node = nodeAt(part.x, part.y, maxDepth_ - part.level);
+        node.references = out + next;
+        node.count = touching_[part.square];
+        next += node.count;
+        nodes_.push_back(node);
+    }
+    return out;
+}
+
+/// Writes the references of bodies begin..end to their places.
+void TreeSplitter::place(std::span<const FineRange> ranges, std::size_t begin, std::size_t end,
+                         std::uint32_t* places, TreeReference* out) const {
+    for (std::size_t i = begin; i < end; ++i) {
+        const TreeReference reference{ranges[i], static_cast<std::uint32_t>(i)};
+        const FineRange lowest = squaresOf(ranges[i], maxDepth_ - depth_);
+        forEachSquare(lowest, [&](std::uint32_t x, std::uint32_t y) {
+            const Part& part = parts_[partOf_[(std::size_t(y) << depth_) + x]];
+            // A part of several squares gets a reference once: with the first that they share.
+            const int below = depth_ - part.level;
+            const bool first = x == std::max<std::uint32_t>(lowest.x0, part.x << below) &&
+                               y == std::max<std::uint32_t>(lowest.y0, part.y << below);
+            if (first) out[places[part.square]++] = reference;
+        });
+    }
 }
 
 std::size_t TreeSplitter::bytes() const {
-    std::size_t sum = (open_.capacity() + next_.capacity() + done_.capacity()) * sizeof(TreeNode) +
-                      blocks_.capacity() * sizeof(Block);
-    for (const ReferenceBuffer& level : levels_) sum += level.bytes();
-    return sum;
+    return references_.bytes() + nodes_.capacity() * sizeof(TreeNode) +
+           (counts_.capacity() + partOf_.capacity()) * sizeof(std::uint32_t) +
+           (touching_.capacity() + covering_.capacity()) * sizeof(std::uint64_t) +
+           parts_.capacity() * sizeof(Part);
 }
 
 }  // namespace quadrille
