@@ -16,7 +16,8 @@ __device__ inline bool isMoving(const DeviceCells& cells, std::uint32_t body) {
 }
 
 template <class Real>
-__global__ void linkEntriesKernel(DeviceCells cells, BaselineOrder<Real> order) {
+__global__ void __launch_bounds__(largestBlock)
+    linkEntriesKernel(DeviceCells cells, BaselineOrder<Real> order) {
     const std::uint32_t entry = threadNumber();
     if (entry >= cells.entries) return;
     const std::uint32_t body = cells.bodies[entry];
@@ -24,7 +25,8 @@ __global__ void linkEntriesKernel(DeviceCells cells, BaselineOrder<Real> order) 
 }
 
 template <class Real>
-__global__ void findCellTurnsKernel(DeviceCells cells, BaselineOrder<Real> order) {
+__global__ void __launch_bounds__(largestBlock)
+    findCellTurnsKernel(DeviceCells cells, BaselineOrder<Real> order) {
     const std::uint32_t entry = threadNumber();
     if (entry >= cells.entries) return;
     const std::uint32_t body = cells.bodies[entry];
@@ -65,9 +67,9 @@ struct MemberPair {
 /// `Lanes` threads, 1 or a warp, share a cell: they compare a member with several others at once,
 /// and resolve what they find one by one.
 template <class Real, unsigned Lanes>
-__global__ void resolveBaselineKernel(ImpulseBodies<Real> bodies, DeviceCells cells,
-                                      BaselineOrder<Real> order, Real restitution,
-                                      TouchedBodies touched) {
+__global__ void __launch_bounds__(largestBlock)
+    resolveBaselineKernel(ImpulseBodies<Real> bodies, DeviceCells cells, BaselineOrder<Real> order,
+                          Real restitution, TouchedBodies touched) {
     using Done = ::cuda::atomic_ref<std::uint32_t, ::cuda::thread_scope_device>;
     const std::uint32_t lane = threadIdx.x % Lanes;
     const auto together = [] {

@@ -6,8 +6,9 @@ namespace quadrille::cuda {
 namespace {
 
 template <class Real>
-__global__ void beginStepKernel(ImpulseBodies<Real> bodies, std::uint32_t movingCount,
-                                StepParameters<Real> step, StepCounts* counts) {
+__global__ void __launch_bounds__(largestBlock)
+    beginStepKernel(ImpulseBodies<Real> bodies, std::uint32_t movingCount,
+                    StepParameters<Real> step, StepCounts* counts) {
     const std::uint32_t row = threadNumber();
     if (row == 0) *counts = {};
     if (row >= movingCount) return;

@@ -26,6 +26,7 @@ struct ToContacts {
 
     __device__ void operator()(std::uint32_t a, std::uint32_t b) const {
         constexpr std::uint32_t staticBit = PendingContact<Real>::staticBit;
+        if (list.seen.slots != nullptr && seenBefore(a, b)) return;
         const unsigned long long place = countUp(&list.counts->contacts);
         if (place >= list.capacity) return;  // the host makes room and comes again
         const auto i = static_cast<std::uint32_t>(place);
@@ -34,6 +35,22 @@ struct ToContacts {
             moving ? movingContact(bodies, a, b, dt) : staticContact(bodies, a, b & ~staticBit, dt);
         list.nextA[i] = atomicExch(&list.heads[a], i);
         if (moving) list.nextB[i] = atomicExch(&list.heads[b], i);
+    }
+
+  private:
+    /// Whether the pair is in the table, where it is in any case afterwards. Once there are more
+    /// contacts than room the table may be full, and all that follow are said to be in it.
+    __device__ bool seenBefore(std::uint32_t a, std::uint32_t b) const {
+        const unsigned long long key = static_cast<unsigned long long>(a) << 32 | b;
+        for (std::uint32_t slot = pairPriority(a, b), tries = 1;; ++slot, ++tries) {
+            const unsigned long long there =
+                atomicCAS(&list.seen.slots[slot & list.seen.mask], SeenPairs::empty, key);
+            if (there == SeenPairs::empty) return false;
+            if (there == key) return true;
+            if (tries % 32 == 0 && atomicAdd(&list.counts->contacts, 0ull) > list.capacity) {
+                return true;
+            }
+        }
     }
 };
 
@@ -75,17 +92,22 @@ __device__ bool overlap(const Member<Real>& p, const Member<Real>& q, Real infla
 }
 
 /// Hands out a pair of members that overlap, p standing before q, if it belongs to this cell.
-template <class Found>
-__device__ void handOut(const DeviceCells& cells, std::uint32_t cell, std::uint32_t p,
-                        std::uint32_t q, const Found& found) {
-    if (cells.complete) {
-        const CellCoordinates& corner = cells.coordinates[cell];
-        const CrossedEdges edgesP = crossedEdgesOf(corner, cells.ranges[p]);
-        const CrossedEdges edgesQ = crossedEdgesOf(corner, cells.ranges[q]);
+template <class Real, class Found>
+__device__ void handOut(const DeviceCells& cells, const CellOwnership<Real>& ownership,
+                        std::uint32_t cell, const Member<Real>& p, const Member<Real>& q,
+                        const Found& found) {
+    if (ownership.coordinates != nullptr) {
+        const auto edges = [&](const Member<Real>& m) {
+            const FineRange range = ownership.grid.range(m.x, m.y, m.halfWidth + ownership.margin,
+                                                         m.halfHeight + ownership.margin);
+            return crossedEdgesOf(ownership.coordinates[cell], range);
+        };
+        const CrossedEdges edgesP = edges(p);
+        const CrossedEdges edgesQ = edges(q);
         if ((edgesP.left && edgesQ.left) || (edgesP.below && edgesQ.below)) return;
     }
-    const bool fixed = q >= cells.movingCount;
-    found(p, fixed ? (q - cells.movingCount) | PendingContact<double>::staticBit : q);
+    found(p.body,
+          q.fixed ? (q.body - cells.movingCount) | PendingContact<Real>::staticBit : q.body);
 }
 
 /// The cell of an entry: the last that begins at or before it. Empty cells begin where the next
@@ -107,8 +129,9 @@ __device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t e
 /// A thread for each body in each cell. Member i meets the half of the others that follow it, the
 /// first after the last, so that all members have as much to do.
 template <class Real, class Found>
-__global__ void comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, Real inflation,
-                               Found found, StepCounts* counts) {
+__global__ void __launch_bounds__(largestBlock)
+    comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, CellOwnership<Real> ownership,
+                   Real inflation, Found found, StepCounts* counts) {
     // Several pairs are compared before one is handed out, so that their loads overlap.
     constexpr std::uint32_t together = 8;
     unsigned long long tested = 0;
@@ -138,11 +161,11 @@ __global__ void comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, Re
             }
             for (; hits != 0; hits &= hits - 1) {
                 const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
-                const std::uint32_t other = cells.bodies[first + j];
+                const Member<Real> other(bodies, cells, first + j);
                 if (i < j) {
-                    handOut(cells, cell, self.body, other, found);
+                    handOut(cells, ownership, cell, self, other, found);
                 } else {
-                    handOut(cells, cell, other, self.body, found);
+                    handOut(cells, ownership, cell, other, self, found);
                 }
             }
         }
@@ -152,8 +175,9 @@ __global__ void comparePerBody(ImpulseBodies<Real> bodies, DeviceCells cells, Re
 
 /// A thread for each cell, as in the report.
 template <class Real, class Found>
-__global__ void comparePerCell(ImpulseBodies<Real> bodies, DeviceCells cells, Real inflation,
-                               Found found, StepCounts* counts) {
+__global__ void __launch_bounds__(largestBlock)
+    comparePerCell(ImpulseBodies<Real> bodies, DeviceCells cells, CellOwnership<Real> ownership,
+                   Real inflation, Found found, StepCounts* counts) {
     unsigned long long tested = 0;
     const std::uint32_t cell = threadNumber();
     if (cell < cells.cells) {
@@ -165,7 +189,7 @@ __global__ void comparePerCell(ImpulseBodies<Real> bodies, DeviceCells cells, Re
                 const Member<Real> other(bodies, cells, j);
                 ++tested;
                 if (overlap(self, other, inflation)) {
-                    handOut(cells, cell, self.body, other.body, found);
+                    handOut(cells, ownership, cell, self, other, found);
                 }
             }
         }
@@ -175,21 +199,23 @@ __global__ void comparePerCell(ImpulseBodies<Real> bodies, DeviceCells cells, Re
 
 template <class Real, class Found>
 void comparePairs(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
-                  Real inflation, const Found& found, StepCounts* counts) {
+                  const CellOwnership<Real>& ownership, Real inflation, const Found& found,
+                  StepCounts* counts) {
     const int size = launch.options.blockSize;
     if (launch.options.threadPer == CudaThread::Cell) {
         comparePerCell<<<blocksFor(cells.cells, size), size, 0, launch.stream>>>(
-            bodies, cells, inflation, found, counts);
+            bodies, cells, ownership, inflation, found, counts);
     } else {
         comparePerBody<<<blocksFor(cells.entries, size), size, 0, launch.stream>>>(
-            bodies, cells, inflation, found, counts);
+            bodies, cells, ownership, inflation, found, counts);
     }
     checkLaunch("comparePairs");
 }
 
 template <class Real>
-__global__ void testCandidatesKernel(ImpulseBodies<Real> bodies, const CandidatePair* candidates,
-                                     std::uint32_t count, ToContacts<Real> found) {
+__global__ void __launch_bounds__(largestBlock)
+    testCandidatesKernel(ImpulseBodies<Real> bodies, const CandidatePair* candidates,
+                         std::uint32_t count, ToContacts<Real> found) {
     constexpr std::uint32_t staticBit = PendingContact<Real>::staticBit;
     const std::uint32_t i = threadNumber();
     if (i >= count) return;
@@ -213,14 +239,17 @@ __global__ void testCandidatesKernel(ImpulseBodies<Real> bodies, const Candidate
 
 template <class Real>
 void collectCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
-                       const DeviceCells& cells, Real inflation, const CandidateList& candidates) {
-    comparePairs(launch, bodies, cells, inflation, ToCandidates<Real>{candidates}, nullptr);
+                       const DeviceCells& cells, const CellOwnership<Real>& ownership,
+                       Real inflation, const CandidateList& candidates) {
+    comparePairs(launch, bodies, cells, ownership, inflation, ToCandidates<Real>{candidates},
+                 nullptr);
 }
 
 template <class Real>
 void findContacts(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
-                  Real dt, const ContactList<Real>& contacts) {
-    comparePairs(launch, bodies, cells, Real(0), ToContacts<Real>{contacts, bodies, dt},
+                  const CellOwnership<Real>& ownership, Real dt,
+                  const ContactList<Real>& contacts) {
+    comparePairs(launch, bodies, cells, ownership, Real(0), ToContacts<Real>{contacts, bodies, dt},
                  contacts.counts);
 }
 
@@ -236,9 +265,9 @@ void testCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
 
 #define QUADRILLE_INSTANTIATE(Real)                                                                \
     template void collectCandidates(const Launch&, const ImpulseBodies<Real>&, const DeviceCells&, \
-                                    Real, const CandidateList&);                                   \
+                                    const CellOwnership<Real>&, Real, const CandidateList&);       \
     template void findContacts(const Launch&, const ImpulseBodies<Real>&, const DeviceCells&,      \
-                               Real, const ContactList<Real>&);                                    \
+                               const CellOwnership<Real>&, Real, const ContactList<Real>&);        \
     template void testCandidates(const Launch&, const ImpulseBodies<Real>&, const CandidatePair*,  \
                                  std::uint32_t, Real, const ContactList<Real>&);
 QUADRILLE_INSTANTIATE(double)

@@ -11,7 +11,8 @@ namespace quadrille::cuda {
 template <class Real>
 class CudaBaseline final : public Resolver<Real> {
   public:
-    explicit CudaBaseline(const CudaOptions& options) : state_(options) {}
+    /// `team` must outlive the resolver.
+    CudaBaseline(const CudaOptions& options, const ThreadTeam& team) : state_(options, team) {}
 
     void integrated(const BodyView<Real>& bodies, const StepParameters<Real>& step,
                     PhaseClock& clock) override {

@@ -1,6 +1,7 @@
 #include "cuda/cuda_impulse.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -37,6 +38,7 @@ ContactList<Real> CudaImpulse<Real>::list() const {
             .collided = collided_.data(),
             .capacity = capacity_,
             .heads = heads_.data(),
+            .seen = seen_,
             .counts = state_.counts()};
 }
 
@@ -64,12 +66,13 @@ void CudaImpulse<Real>::reserveContacts(std::uint64_t count) {
 
 template <class Real>
 void CudaImpulse<Real>::collect(const BodyView<Real>& bodies, const Partition<Real>& partition) {
-    const Real inflation = CandidatePairs<Real>::inflationOf(bodies, partition);
+    const Real inflation = CandidatePairs<Real>::inflationOf(bodies, partition, state_.team());
     if (candidates_.capacity() == 0)
         candidates_.reserve(4 * std::size_t(state_.movingCount()) + 64);
     for (;;) {
         const auto room = std::min<std::size_t>(candidates_.capacity(), none);
-        collectCandidates(state_.launch(), state_.bodies(), state_.cells(), inflation,
+        collectCandidates(state_.launch(), state_.bodies(), state_.cells(), state_.ownership(),
+                          inflation,
                           {candidates_.data(), static_cast<std::uint32_t>(room), state_.counts()});
         StepCounts counts;
         state_.fetch(&counts, state_.counts(), sizeof counts);
@@ -82,17 +85,33 @@ void CudaImpulse<Real>::collect(const BodyView<Real>& bodies, const Partition<Re
     }
 }
 
+/// Cells that are out of date may show a pair more than once. The table stays half empty at least,
+/// unless there are more contacts than room.
+template <class Real>
+void CudaImpulse<Real>::forgetSeenPairs(const Partition<Real>& partition) {
+    if (partition.complete) {
+        seen_ = {};
+        return;
+    }
+    const std::size_t slots = std::bit_ceil(2 * std::size_t(capacity_));
+    seenSlots_.reserve(slots);
+    seen_ = {seenSlots_.data(), static_cast<std::uint32_t>(slots - 1)};
+    check(cudaMemsetAsync(seenSlots_.data(), 0xff, slots * sizeof(SeenPairs::empty),
+                          state_.launch().stream),
+          "cudaMemsetAsync");
+}
+
 template <class Real>
 void CudaImpulse<Real>::launchStep(const Partition<Real>& partition,
                                    const StepParameters<Real>& step) {
     const Launch& launch = state_.launch();
+    forgetSeenPairs(partition);
     if (partition.margin > 0) {
         testCandidates(launch, state_.bodies(), candidates_.data(), candidateCount_, step.dt,
                        list());
     } else {
-        findContacts(launch, state_.bodies(), state_.cells(), step.dt, list());
+        findContacts(launch, state_.bodies(), state_.cells(), state_.ownership(), step.dt, list());
     }
-    if (!partition.complete) dropRepeats(launch, list(), expected_);
     findSuccessors(launch, list(), expected_);
     resolveImpulse(launch, state_.bodies(), list(), step, state_.touched(), expected_);
     state_.endPhase(Phase::Resolve);
@@ -132,7 +151,7 @@ ResolveCounts CudaImpulse<Real>::resolve(const BodyView<Real>& bodies,
     if (records != nullptr) appendRecords(found, step, *records);
     listsEmpty_ = true;
     state_.writeBack(bodies);
-    return {.contacts = counts.contacts - counts.repeats,
+    return {.contacts = counts.contacts,
             .collisions = counts.collisions,
             .pairsTested = partition.margin > 0 ? candidateCount_ : counts.tested};
 }
@@ -149,7 +168,6 @@ void CudaImpulse<Real>::appendRecords(std::uint32_t count, const StepParameters<
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t p, std::uint32_t q) { return before(contacts[p], contacts[q]); });
     for (const std::uint32_t i : order) {
-        if (contacts[i].axes == 0) continue;  // shown twice
         records.push_back(makeRecord(contacts[i], step.start, collided[i]));
     }
 }

@@ -11,7 +11,8 @@ namespace quadrille::cuda {
 template <class Real>
 class CudaImpulse final : public Resolver<Real> {
   public:
-    explicit CudaImpulse(const CudaOptions& options) : state_(options) {}
+    /// `team` must outlive the resolver.
+    CudaImpulse(const CudaOptions& options, const ThreadTeam& team) : state_(options, team) {}
 
     void integrated(const BodyView<Real>& bodies, const StepParameters<Real>& step,
                     PhaseClock& clock) override {
@@ -27,6 +28,7 @@ class CudaImpulse final : public Resolver<Real> {
     void reserveLists();
     void reserveContacts(std::uint64_t count);
     void collect(const BodyView<Real>& bodies, const Partition<Real>& partition);
+    void forgetSeenPairs(const Partition<Real>& partition);
     void launchStep(const Partition<Real>& partition, const StepParameters<Real>& step);
     void appendRecords(std::uint32_t count, const StepParameters<Real>& step,
                        std::vector<ContactRecord>& records) const;
@@ -41,6 +43,8 @@ class CudaImpulse final : public Resolver<Real> {
     DeviceArray<std::uint32_t> waiting_{state_.budget()};
     DeviceArray<bool> collided_{state_.budget()};
     DeviceArray<std::uint32_t> heads_{state_.budget()};
+    DeviceArray<unsigned long long> seenSlots_{state_.budget()};
+    SeenPairs seen_{};
     std::uint32_t capacity_ = 0;  // contacts for which there is room
     std::uint32_t expected_ = 0;  // contacts, judging by the last step
     bool listsEmpty_ = false;

@@ -68,7 +68,8 @@ struct ColumnPart {
 }  // namespace
 
 template <class Real>
-DeviceState<Real>::DeviceState(const CudaOptions& options) : stream_(options) {
+DeviceState<Real>::DeviceState(const CudaOptions& options, const ThreadTeam& team)
+    : stream_(options), team_(team) {
     budget_.limit = options.memoryLimit;
     counts_.reserve(1);
     hostCounts_.reserve(1);
@@ -87,7 +88,7 @@ void DeviceState<Real>::upload(const BodyView<Real>& view) {
     const std::size_t fx = column(f.x), fy = column(f.y);
     const std::size_t fixedWidth = column(f.halfWidth), fixedHeight = column(f.halfHeight);
     const std::size_t fixedEntity = u.add(f.entity);
-    u.flatten();
+    u.flatten(team_);
     endPhase(Phase::Flatten);
     u.send(launch().stream);
 
@@ -131,19 +132,20 @@ bool DeviceState<Real>::updateCells(const Partition<Real>& partition, std::uint3
     u.clear();
     const std::size_t offsets = u.add(std::span<const std::uint32_t>(cells.offsets));
     const std::size_t bodies = u.add(std::span<const std::uint32_t>(cells.bodies));
-    const std::size_t coordinates = u.add(std::span<const CellCoordinates>(cells.coordinates));
-    const std::size_t ranges = u.add(std::span<const FineRange>(partition.ranges));
-    u.flatten();
+    std::span<const CellCoordinates> owners;
+    if (partition.complete) owners = cells.coordinates;
+    const std::size_t coordinates = u.add(owners);
+    u.flatten(team_);
     endPhase(Phase::Flatten);
     u.send(launch().stream);
     cells_ = {.offsets = u.on<const std::uint32_t>(offsets),
               .bodies = u.on<const std::uint32_t>(bodies),
-              .coordinates = u.on<const CellCoordinates>(coordinates),
-              .ranges = u.on<const FineRange>(ranges),
               .cells = static_cast<std::uint32_t>(cells.size()),
               .entries = static_cast<std::uint32_t>(cells.bodies.size()),
-              .movingCount = movingCount,
-              .complete = partition.complete};
+              .movingCount = movingCount};
+    ownership_ = {.coordinates = u.on<const CellCoordinates>(coordinates),
+                  .grid = partition.grid,
+                  .margin = partition.margin};
     generation_ = partition.generation;
     endPhase(Phase::CopyToDevice);
     return true;
@@ -182,13 +184,16 @@ template <class Real>
 void DeviceState<Real>::writeBack(const BodyView<Real>& view) {
     const auto& m = view.moving;
     const HostResult<Real> result = hostResult();
-    for (std::uint32_t i = 0; i < result.counts->touched; ++i) {
-        const std::uint32_t row = result.rows[i];
-        m.x[row] = result.x[i];
-        m.y[row] = result.y[i];
-        m.vx[row] = result.vx[i];
-        m.vy[row] = result.vy[i];
-    }
+    team_.shares(result.counts->touched, worthwhile::scattered,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const std::uint32_t row = result.rows[i];
+                         m.x[row] = result.x[i];
+                         m.y[row] = result.y[i];
+                         m.vx[row] = result.vx[i];
+                         m.vy[row] = result.vy[i];
+                     }
+                 });
     valid_ = true;
     endPhase(Phase::CopyToHost);
 }

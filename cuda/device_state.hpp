@@ -6,6 +6,7 @@
 #include <quadrille/bodies.hpp>
 
 #include "collision/partitioner.hpp"
+#include "collision/thread_team.hpp"
 #include "core/phase_clock.hpp"
 #include "cuda/kernels.hpp"
 #include "cuda/memory.hpp"
@@ -35,7 +36,8 @@ class Stream {
 template <class Real>
 class DeviceState {
   public:
-    explicit DeviceState(const CudaOptions& options);
+    /// `team` does the host's part and must outlive the state.
+    DeviceState(const CudaOptions& options, const ThreadTeam& team);
 
     /// Makes the bodies those of the host, which have just been integrated.
     void beginStep(const BodyView<Real>& view, const StepParameters<Real>& step, PhaseClock& clock);
@@ -59,10 +61,12 @@ class DeviceState {
     void endPhase(Phase phase);
 
     const Launch& launch() const { return stream_.launch(); }
+    const ThreadTeam& team() const { return team_; }
     MemoryBudget& budget() { return budget_; }
     const ImpulseBodies<Real>& bodies() const { return bodies_; }
     std::uint32_t movingCount() const { return movingCount_; }
     const DeviceCells& cells() const { return cells_; }
+    const CellOwnership<Real>& ownership() const { return ownership_; }
     StepCounts* counts() const { return counts_.data(); }
     TouchedBodies touched() const { return {touchedRows_.data(), counts_.data()}; }
     /// Copies from the device and waits.
@@ -74,6 +78,7 @@ class DeviceState {
     void upload(const BodyView<Real>& view);
 
     Stream stream_;
+    const ThreadTeam& team_;
     MemoryBudget budget_;
     PhaseClock* clock_ = nullptr;
 
@@ -85,6 +90,7 @@ class DeviceState {
 
     PackedUpload cellUpload_{budget_};
     DeviceCells cells_{};
+    CellOwnership<Real> ownership_{};
     std::uint64_t generation_ = 0;  // of the partition whose cells are here
 
     DeviceArray<StepCounts> counts_{budget_};

@@ -31,21 +31,6 @@ __device__ void forOwnContacts(const ContactList<Real>& list, Function&& functio
     for (std::uint32_t i = threadNumber(); i < count; i += threadCount()) function(i);
 }
 
-/// A contact without axes is one that was dropped.
-template <class Real>
-__global__ void dropRepeatsKernel(ContactList<Real> list) {
-    forOwnContacts(list, [&](std::uint32_t i) {
-        PendingContact<Real>& c = list.contacts[i];
-        bool repeat = false;
-        forEachContact(list, c.a, [&](std::uint32_t j, const PendingContact<Real>& d) {
-            repeat |= j < i && d.a == c.a && d.b == c.b;
-        });
-        if (!repeat) return;
-        c.axes = 0;
-        countUp(&list.counts->repeats);
-    });
-}
-
 /// Finds what follows contact c among those of a body. Returns 1 if another one comes before it.
 template <class Real>
 __device__ std::uint32_t placeAmong(const ContactList<Real>& list, const PendingContact<Real>& c,
@@ -55,7 +40,6 @@ __device__ std::uint32_t placeAmong(const ContactList<Real>& list, const Pending
     successor = none;
     forEachContact(list, body, [&](std::uint32_t i, const PendingContact<Real>& other) {
         const PendingContact<Real> d = other;
-        if (d.axes == 0) return;
         if (before(d, c)) {
             waits = 1;
         } else if (before(c, d) && (successor == none || before(d, nearest))) {
@@ -67,7 +51,7 @@ __device__ std::uint32_t placeAmong(const ContactList<Real>& list, const Pending
 }
 
 template <class Real>
-__global__ void findSuccessorsKernel(ContactList<Real> list) {
+__global__ void __launch_bounds__(largestBlock) findSuccessorsKernel(ContactList<Real> list) {
     forOwnContacts(list, [&](std::uint32_t i) {
         const PendingContact<Real> c = list.contacts[i];
         Successors successors{none, none};
@@ -88,7 +72,7 @@ constexpr std::uint32_t mostForOneBlock = 4096;
 /// at the same time: the earliest contact that is left can always be resolved, by whichever thread
 /// has it.
 template <class Real, ::cuda::thread_scope Scope>
-__global__ void __launch_bounds__(1024)
+__global__ void __launch_bounds__(largestBlock)
     resolveImpulseKernel(ImpulseBodies<Real> bodies, ContactList<Real> list,
                          StepParameters<Real> step, TouchedBodies touched) {
     using Waiting = ::cuda::atomic_ref<std::uint32_t, Scope>;
@@ -101,9 +85,8 @@ __global__ void __launch_bounds__(1024)
     }
     std::uint32_t left = 0;
     forOwnContacts(list, [&](std::uint32_t i) {
-        const bool dropped = list.contacts[i].axes == 0;
-        left += !dropped;
-        if (dropped || waiting != list.waiting) waiting[i] = dropped ? resolved : list.waiting[i];
+        ++left;
+        if (waiting != list.waiting) waiting[i] = list.waiting[i];
     });
     if constexpr (Scope == ::cuda::thread_scope_block) __syncthreads();
 
@@ -143,13 +126,6 @@ struct ClearList {
 }  // namespace
 
 template <class Real>
-void dropRepeats(const Launch& launch, const ContactList<Real>& contacts, std::uint32_t expected) {
-    dropRepeatsKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0,
-                        launch.stream>>>(contacts);
-    checkLaunch("dropRepeatsKernel");
-}
-
-template <class Real>
 void findSuccessors(const Launch& launch, const ContactList<Real>& contacts,
                     std::uint32_t expected) {
     findSuccessorsKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0,
@@ -163,7 +139,7 @@ void resolveImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
                     const TouchedBodies& touched, std::uint32_t expected) {
     if (expected <= mostForOneBlock) {
         resolveImpulseKernel<Real, ::cuda::thread_scope_block>
-            <<<1, 1024, 0, launch.stream>>>(bodies, contacts, step, touched);
+            <<<1, largestBlock, 0, launch.stream>>>(bodies, contacts, step, touched);
         checkLaunch("resolveImpulseKernel");
     } else {
         launchTogether(launch, "resolveImpulseKernel",
@@ -180,7 +156,6 @@ void publishImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
 }
 
 #define QUADRILLE_INSTANTIATE(Real)                                                       \
-    template void dropRepeats(const Launch&, const ContactList<Real>&, std::uint32_t);    \
     template void findSuccessors(const Launch&, const ContactList<Real>&, std::uint32_t); \
     template void resolveImpulse(const Launch&, const ImpulseBodies<Real>&,               \
                                  const ContactList<Real>&, const StepParameters<Real>&,   \

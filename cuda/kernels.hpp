@@ -12,6 +12,9 @@
 
 namespace quadrille::cuda {
 
+/// Threads in a block at most, which every kernel must have registers for.
+inline constexpr int largestBlock = 1024;
+
 struct Launch {
     cudaStream_t stream;
     CudaOptions options;
@@ -34,12 +37,13 @@ void beginStep(const Launch& launch, const ImpulseBodies<Real>& bodies, std::uin
 /// extents.
 template <class Real>
 void collectCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
-                       const DeviceCells& cells, Real inflation, const CandidateList& candidates);
+                       const DeviceCells& cells, const CellOwnership<Real>& ownership,
+                       Real inflation, const CandidateList& candidates);
 
 /// Finds the contacts among the pairs of each cell, and counts the pairs.
 template <class Real>
 void findContacts(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
-                  Real dt, const ContactList<Real>& contacts);
+                  const CellOwnership<Real>& ownership, Real dt, const ContactList<Real>& contacts);
 
 /// Finds the contacts among `count` candidate pairs.
 template <class Real>
@@ -48,10 +52,6 @@ void testCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
                     const ContactList<Real>& contacts);
 
 // ---- impulse.cu
-
-/// Takes out what an incomplete partition showed more than once.
-template <class Real>
-void dropRepeats(const Launch& launch, const ContactList<Real>& contacts, std::uint32_t expected);
 
 /// Finds which contacts follow each contact, and for how many it must wait.
 template <class Real>

@@ -1,17 +1,23 @@
 #include "cuda/packed_upload.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "cuda/check.hpp"
 
 namespace quadrille::cuda {
 
-void PackedUpload::flatten() {
+void PackedUpload::flatten(const ThreadTeam& team) {
     host_.reserve(bytes_);
     device_.reserve(bytes_);
-    for (const Part& part : parts_) {
-        if (part.bytes > 0) std::memcpy(host_.data() + part.offset, part.source, part.bytes);
-    }
+    team.shares(bytes_, worthwhile::copied, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (const Part& part : parts_) {
+            const std::size_t first = std::max(begin, part.offset);
+            const std::size_t last = std::min(end, part.offset + part.bytes);
+            if (first >= last) continue;
+            std::memcpy(host_.data() + first, part.source + (first - part.offset), last - first);
+        }
+    });
 }
 
 void PackedUpload::send(cudaStream_t stream) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "collision/thread_team.hpp"
 #include "cuda/memory.hpp"
 
 namespace quadrille::cuda {
@@ -24,14 +25,14 @@ class PackedUpload {
     /// Returns the number of the part.
     template <class T>
     std::size_t add(std::span<const T> values) {
-        parts_.push_back({values.data(), values.size_bytes(), bytes_});
+        parts_.push_back({std::as_bytes(values).data(), values.size_bytes(), bytes_});
         // As cudaMalloc aligns.
         bytes_ = (bytes_ + values.size_bytes() + 255) / 256 * 256;
         return parts_.size() - 1;
     }
 
     /// Copies all parts into the block.
-    void flatten();
+    void flatten(const ThreadTeam& team);
     /// Starts the copy to the device. The block must not be flattened anew until it is done.
     void send(cudaStream_t stream);
 
@@ -46,7 +47,7 @@ class PackedUpload {
 
   private:
     struct Part {
-        const void* source;
+        const std::byte* source;
         std::size_t bytes;
         std::size_t offset;
     };

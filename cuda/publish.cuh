@@ -6,8 +6,9 @@ namespace quadrille::cuda {
 
 /// Calls `settle(row)` for each touched body, which may still change it, and writes it to the host.
 template <class Real, class Settle>
-__global__ void publishKernel(ImpulseBodies<Real> bodies, TouchedBodies touched,
-                              HostResult<Real> result, Settle settle) {
+__global__ void __launch_bounds__(largestBlock)
+    publishKernel(ImpulseBodies<Real> bodies, TouchedBodies touched, HostResult<Real> result,
+                  Settle settle) {
     const auto& m = bodies.moving;
     for (std::uint32_t i = threadNumber(); i < touched.counts->touched; i += threadCount()) {
         const std::uint32_t row = touched.rows[i];

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "collision/canonical_order.hpp"
-#include "collision/cell_ownership.hpp"
+#include "collision/fine_grid.hpp"
 #include "collision/impulse_contact.hpp"
 
 /// What kernels are given. All pointers are to device memory unless it says otherwise.
@@ -13,15 +13,21 @@ namespace quadrille::cuda {
 /// Marks the end of a list.
 inline constexpr std::uint32_t none = 0xffff'ffffu;
 
-/// The cells of a partition, as Cells and Partition have them.
+/// The cells of a partition, as Cells has them.
 struct DeviceCells {
     const std::uint32_t* offsets;
     const std::uint32_t* bodies;
-    const CellCoordinates* coordinates;
-    const FineRange* ranges;
     std::uint32_t cells, entries;
     std::uint32_t movingCount;
-    bool complete;
+};
+
+/// To which cell of a partition each pair belongs, as Partition has it. The ranges of bodies are
+/// found again: that takes less than sending them.
+template <class Real>
+struct CellOwnership {
+    const CellCoordinates* coordinates;  ///< null if pairs belong to all cells that they share
+    FineGrid<Real> grid;
+    Real margin;
 };
 
 /// What the kernels of a step count.
@@ -30,7 +36,6 @@ struct StepCounts {
     unsigned long long contacts;    ///< to be listed, whether or not there was room for them
     unsigned long long candidates;  ///< the same of candidate pairs
     unsigned long long collisions;
-    unsigned int repeats;  ///< contacts that an incomplete partition showed again
     unsigned int touched;  ///< bodies that a contact has changed
 };
 
@@ -43,6 +48,14 @@ struct CandidateList {
     CandidatePair* pairs;
     std::uint32_t capacity;
     StepCounts* counts;
+};
+
+/// The pairs that are contacts already: a hash table with open addressing, `empty` where there is
+/// none. For cells that may show a pair more than once.
+struct SeenPairs {
+    static constexpr unsigned long long empty = ~0ull;
+    unsigned long long* slots;  ///< null if no cells do that
+    std::uint32_t mask;         ///< the number of slots, a power of two, less one
 };
 
 /// The contacts that follow a contact in the canonical order of its first body's contacts, and of
@@ -61,6 +74,7 @@ struct ContactList {
     bool* collided;
     std::uint32_t capacity;
     std::uint32_t* heads;  ///< of a moving body: the first of its contacts; `none` between steps
+    SeenPairs seen;
     StepCounts* counts;
 };
 

@@ -7,8 +7,10 @@
 namespace quadrille {
 
 /// The resolver of a discrete law on a CUDA device; from the folder cuda/, or a stand-in in builds
-/// without it. Throws DeviceError if there is no device, Error for impossible options.
+/// without it. `team` does the host's part and must outlive it. Throws DeviceError if there is no
+/// device, Error for impossible options.
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeCudaResolver(const SimulationConfig& config);
+std::unique_ptr<Resolver<Real>> makeCudaResolver(const SimulationConfig& config,
+                                                 const ThreadTeam& team);
 
 }  // namespace quadrille

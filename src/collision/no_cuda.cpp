@@ -10,11 +10,13 @@ namespace quadrille {
 CudaDevice findCudaDevice() { return {.name = {}, .reason = "this build has no CUDA"}; }
 
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeCudaResolver(const SimulationConfig&) {
+std::unique_ptr<Resolver<Real>> makeCudaResolver(const SimulationConfig&, const ThreadTeam&) {
     throw DeviceError("cuda: " + findCudaDevice().reason);
 }
 
-template std::unique_ptr<Resolver<double>> makeCudaResolver(const SimulationConfig&);
-template std::unique_ptr<Resolver<float>> makeCudaResolver(const SimulationConfig&);
+template std::unique_ptr<Resolver<double>> makeCudaResolver(const SimulationConfig&,
+                                                            const ThreadTeam&);
+template std::unique_ptr<Resolver<float>> makeCudaResolver(const SimulationConfig&,
+                                                           const ThreadTeam&);
 
 }  // namespace quadrille

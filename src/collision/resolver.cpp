@@ -49,7 +49,7 @@ std::unique_ptr<Resolver<Real>> makeResolver(const SimulationConfig& config,
             if (config.law == Law::Impulse) return std::make_unique<ThreadsImpulse<Real>>(team);
             break;
         case ResolverKind::Cuda:
-            if (config.law != Law::Continuous) return makeCudaResolver<Real>(config);
+            if (config.law != Law::Continuous) return makeCudaResolver<Real>(config, team);
             break;
         case ResolverKind::CudaResident:
             throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
