@@ -126,6 +126,42 @@ __device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t e
     return low;
 }
 
+/// Pairs that a warp has found and not handed out yet. Handing out takes long, and the threads of a
+/// warp find different numbers of pairs, so they share what they have found, 32 at a time.
+class FoundPairs {
+  public:
+    /// A pair of entries of a cell.
+    struct Pair {
+        std::uint32_t cell, p, q;
+    };
+    static constexpr std::uint32_t room = 64;
+
+    __device__ explicit FoundPairs(Pair* ofWarp) : pairs_(ofWarp) {}
+
+    /// All threads of the warp come here together, those with a `hit` to leave a pair.
+    template <class HandOut>
+    __device__ void add(bool hit, const Pair& pair, const HandOut& handOut) {
+        const unsigned hits = __ballot_sync(0xffff'ffffu, hit);
+        const unsigned before = (1u << threadIdx.x % 32) - 1;
+        if (hit) pairs_[count_ + __popc(hits & before)] = pair;
+        count_ += __popc(hits);
+        if (count_ >= 32) flush(handOut);
+    }
+    /// Hands out up to 32 pairs.
+    template <class HandOut>
+    __device__ void flush(const HandOut& handOut) {
+        __syncwarp();
+        const std::uint32_t size = min(count_, 32u);
+        count_ -= size;
+        if (threadIdx.x % 32 < size) handOut(pairs_[count_ + threadIdx.x % 32]);
+        __syncwarp();
+    }
+
+  private:
+    Pair* pairs_;
+    std::uint32_t count_ = 0;  // the same in all threads of the warp
+};
+
 /// A thread for each body in each cell. Member i meets the half of the others that follow it, the
 /// first after the last, so that all members have as much to do.
 template <class Real, class Found>
@@ -134,42 +170,44 @@ __global__ void __launch_bounds__(largestBlock)
                    Real inflation, Found found, StepCounts* counts) {
     // Several pairs are compared before one is handed out, so that their loads overlap.
     constexpr std::uint32_t together = 8;
+    extern __shared__ FoundPairs::Pair foundPairs[];
+    FoundPairs waiting(foundPairs + threadIdx.x / 32 * FoundPairs::room);
+    const auto handOutPair = [&](const FoundPairs::Pair& pair) {
+        handOut(cells, ownership, pair.cell, Member<Real>(bodies, cells, pair.p),
+                Member<Real>(bodies, cells, pair.q), found);
+    };
+
     unsigned long long tested = 0;
-    const std::uint32_t entry = threadNumber();
-    if (entry < cells.entries) {
-        const std::uint32_t cell = cellOf(cells, entry);
-        const std::uint32_t first = cells.offsets[cell];
-        const std::uint32_t members = cells.offsets[cell + 1] - first;
-        const std::uint32_t i = entry - first;
-        const Member<Real> self(bodies, cells, entry);
-        // Opposite members of an even number meet once.
-        const std::uint32_t partners = (members - 1) / 2 + (members % 2 == 0 && 2 * i < members);
-        const auto partner = [&](std::uint32_t k) {
-            return i + k < members ? i + k : i + k - members;
-        };
-        for (std::uint32_t start = 1; start <= partners; start += together) {
-            std::uint32_t hits = 0;
+    const bool there = threadNumber() < cells.entries;
+    const std::uint32_t entry = there ? threadNumber() : cells.entries - 1;
+    const std::uint32_t cell = cellOf(cells, entry);
+    const std::uint32_t first = cells.offsets[cell];
+    const std::uint32_t members = cells.offsets[cell + 1] - first;
+    const std::uint32_t i = entry - first;
+    const Member<Real> self(bodies, cells, entry);
+    // Opposite members of an even number meet once.
+    const std::uint32_t partners =
+        there ? (members - 1) / 2 + (members % 2 == 0 && 2 * i < members) : 0;
+    const auto partner = [&](std::uint32_t k) { return i + k < members ? i + k : i + k - members; };
+    const std::uint32_t most = __reduce_max_sync(0xffff'ffffu, partners);
+    for (std::uint32_t start = 1; start <= most; start += together) {
+        std::uint32_t hits = 0;
 #pragma unroll
-            for (std::uint32_t l = 0; l < together; ++l) {
-                const bool inside = start + l <= partners;
-                const std::uint32_t j = partner(inside ? start + l : 0);
-                const Member<Real> other(bodies, cells, first + j);
-                const bool hit =
-                    i < j ? overlap(self, other, inflation) : overlap(other, self, inflation);
-                tested += inside && !(self.fixed && other.fixed);
-                hits |= std::uint32_t(inside && hit) << l;
-            }
-            for (; hits != 0; hits &= hits - 1) {
-                const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
-                const Member<Real> other(bodies, cells, first + j);
-                if (i < j) {
-                    handOut(cells, ownership, cell, self, other, found);
-                } else {
-                    handOut(cells, ownership, cell, other, self, found);
-                }
-            }
+        for (std::uint32_t l = 0; l < together; ++l) {
+            const bool inside = start + l <= partners;
+            const std::uint32_t j = partner(inside ? start + l : 0);
+            const Member<Real> other(bodies, cells, first + j);
+            const bool hit =
+                i < j ? overlap(self, other, inflation) : overlap(other, self, inflation);
+            tested += inside && !(self.fixed && other.fixed);
+            hits |= std::uint32_t(inside && hit) << l;
+        }
+        for (; __any_sync(0xffff'ffffu, hits != 0); hits &= hits - 1) {
+            const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
+            waiting.add(hits != 0, {cell, first + min(i, j), first + max(i, j)}, handOutPair);
         }
     }
+    waiting.flush(handOutPair);
     if (counts != nullptr) addFromBlock(&counts->tested, tested);
 }
 
@@ -201,12 +239,14 @@ template <class Real, class Found>
 void comparePairs(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
                   const CellOwnership<Real>& ownership, Real inflation, const Found& found,
                   StepCounts* counts) {
+    if (cells.entries == 0) return;
     const int size = launch.options.blockSize;
     if (launch.options.threadPer == CudaThread::Cell) {
         comparePerCell<<<blocksFor(cells.cells, size), size, 0, launch.stream>>>(
             bodies, cells, ownership, inflation, found, counts);
     } else {
-        comparePerBody<<<blocksFor(cells.entries, size), size, 0, launch.stream>>>(
+        const std::size_t shared = size / 32 * FoundPairs::room * sizeof(FoundPairs::Pair);
+        comparePerBody<<<blocksFor(cells.entries, size), size, shared, launch.stream>>>(
             bodies, cells, ownership, inflation, found, counts);
     }
     checkLaunch("comparePairs");

@@ -184,16 +184,18 @@ template <class Real>
 void DeviceState<Real>::writeBack(const BodyView<Real>& view) {
     const auto& m = view.moving;
     const HostResult<Real> result = hostResult();
-    team_.shares(result.counts->touched, worthwhile::scattered,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     for (std::size_t i = begin; i < end; ++i) {
-                         const std::uint32_t row = result.rows[i];
-                         m.x[row] = result.x[i];
-                         m.y[row] = result.y[i];
-                         m.vx[row] = result.vx[i];
-                         m.vy[row] = result.vy[i];
-                     }
-                 });
+    // In small worlds the other threads sleep, and waking them would take longer.
+    const bool awake = m.size() >= worthwhile::streamed;
+    const std::size_t least = awake ? worthwhile::scattered : m.size() + 1;
+    team_.shares(result.counts->touched, least, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t row = result.rows[i];
+            m.x[row] = result.x[i];
+            m.y[row] = result.y[i];
+            m.vx[row] = result.vx[i];
+            m.vy[row] = result.vy[i];
+        }
+    });
     valid_ = true;
     endPhase(Phase::CopyToHost);
 }

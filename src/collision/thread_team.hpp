@@ -133,7 +133,7 @@ class ThreadTeam {
 namespace worthwhile {
 inline constexpr std::size_t streamed = 20'000;  ///< bodies that are read and written in passing
 inline constexpr std::size_t tested = 16'000;    ///< pairs whose boxes are compared
-inline constexpr std::size_t built = 8'000;      ///< bodies that cells are made for
+inline constexpr std::size_t built = 4'000;      ///< bodies that cells are made for
 inline constexpr std::size_t walked = 1'500;     ///< bodies whose cells are walked through
 inline constexpr std::size_t resolved = 300;     ///< contacts
 inline constexpr std::size_t scattered = 500;    ///< bodies that are written here and there

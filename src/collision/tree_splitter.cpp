@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t most = 1024;
 constexpr std::size_t fewest = 128;
 constexpr std::size_t nodesPerWorker = 4;
+/// A thread alone cuts trees of so many bodies, which its cache does not hold.
+constexpr std::size_t large = 65'536;
 /// Levels to go down at once: with 1,365 squares to sort into, the counts stay in the cache.
 constexpr int mostLevels = 5;
 /// Bodies whose ranges are found and looked at before those of the next.
@@ -45,17 +47,20 @@ TreeNode nodeAt(std::uint32_t x, std::uint32_t y, int shift) {
 
 }  // namespace
 
-std::span<const TreeNode> TreeSplitter::split(
-    std::span<const FineRange> ranges,
-    const std::function<void(std::size_t, std::size_t)>& findRanges, int maxDepth,
-    std::size_t maxPerCell, const ThreadTeam& team) {
+std::span<const TreeNode> TreeSplitter::split(std::span<const FineRange> ranges,
+                                              const FindRanges& findRanges, int maxDepth,
+                                              std::size_t maxPerCell, const ThreadTeam& team) {
     const std::size_t bodies = ranges.size();
     const unsigned workers = team.workersFor(bodies, worthwhile::built);
     const std::size_t share = std::clamp(bodies / (nodesPerWorker * workers), fewest, most);
     const std::size_t enough = std::max(maxPerCell, team.eager() ? 1 : share);
+    const bool cut = workers > 1 || bodies >= large;
     maxDepth_ = maxDepth;
     depth_ = 0;
-    while (depth_ < std::min(mostLevels, maxDepth) && (bodies >> 2 * depth_) > 2 * enough) ++depth_;
+    while (cut && depth_ < std::min(mostLevels, maxDepth) && (bodies >> 2 * depth_) > 2 * enough)
+        ++depth_;
+
+    if (depth_ == 0) return whole(ranges, findRanges, team);
 
     counts_.resize(workers * stride());
     team.shares(bodies, worthwhile::built, [&](std::size_t b, std::size_t e, unsigned worker) {
@@ -73,6 +78,19 @@ std::span<const TreeNode> TreeSplitter::split(
     team.shares(bodies, worthwhile::built, [&](std::size_t b, std::size_t e, unsigned worker) {
         place(ranges, b, e, histogram(worker).touching, out);
     });
+    return nodes_;
+}
+
+/// The root alone.
+std::span<const TreeNode> TreeSplitter::whole(std::span<const FineRange> ranges,
+                                              const FindRanges& findRanges,
+                                              const ThreadTeam& team) {
+    TreeReference* const out = references_.reserve(ranges.size());
+    team.shares(ranges.size(), worthwhile::built, [&](std::size_t b, std::size_t e, unsigned) {
+        findRanges(b, e);
+        for (std::size_t i = b; i < e; ++i) out[i] = {ranges[i], static_cast<std::uint32_t>(i)};
+    });
+    nodes_.assign(1, {out, ranges.size(), 0, 0, maxDepth_});
     return nodes_;
 }
 

@@ -15,12 +15,13 @@ namespace quadrille {
 /// takes the bodies down several levels of the tree at once.
 class TreeSplitter {
   public:
+    using FindRanges = std::function<void(std::size_t begin, std::size_t end)>;
+
     /// The nodes, in Z order, that make up the tree over the bodies with these ranges: leaves, and
     /// nodes that may still have to be split. They refer to memory of this object. The ranges need
-    /// not be there yet: `findRanges(begin, end)` is called to fill them. Throws Error if there are
-    /// more references than 32 bits can count.
-    std::span<const TreeNode> split(std::span<const FineRange> ranges,
-                                    const std::function<void(std::size_t, std::size_t)>& findRanges,
+    /// not be there yet: `findRanges` is called to fill them. Throws Error if there are more
+    /// references than 32 bits can count.
+    std::span<const TreeNode> split(std::span<const FineRange> ranges, const FindRanges& findRanges,
                                     int maxDepth, std::size_t maxPerCell, const ThreadTeam& team);
 
     std::size_t bytes() const;
@@ -48,6 +49,8 @@ class TreeSplitter {
     /// Numbers that a worker has in counts_; some more than it needs keep the workers apart.
     std::size_t stride() const { return 3 * squares() + 16; }
     Histogram histogram(unsigned worker);
+    std::span<const TreeNode> whole(std::span<const FineRange> ranges, const FindRanges& findRanges,
+                                    const ThreadTeam& team);
     void count(std::span<const FineRange> ranges, const Histogram& own) const;
     void sumUp(const Histogram& own) const;
     void chooseParts(unsigned workers, std::size_t enough);
