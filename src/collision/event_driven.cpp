@@ -16,7 +16,11 @@ EventDriven<Real, Path>::EventDriven(const SimulationConfig& config, const Threa
       gravity_{config.gravity.x(), config.gravity.y()},
       restitution_(config.restitution),
       candidates_(team),
-      found_(team.size()) {}
+      found_(team.size()) {
+    if (!falls && restitution_ == 1 && team.size() > 1) {
+        shared_ = std::make_unique<SharedEvents<Real>>(team);
+    }
+}
 
 template <class Real, class Path>
 void EventDriven<Real, Path>::anchor(const BodyView<Real>& bodies, double now) {
@@ -168,6 +172,7 @@ double EventDriven<Real, Path>::advance(const BodyView<Real>& bodies,
     if constexpr (falls) loop.releaseFromChanged(from);
     loop.findForChanged(from, neighboursOf);
     events_.fastest = 0;
+    if (runShared(search, window, records, counts)) return to;
     loop.prefetch();
     const std::uint64_t most =
         counts.contacts + Loop::mostEventsPerBody * (bodies.moving.size() + 1);
@@ -190,12 +195,29 @@ double EventDriven<Real, Path>::advance(const BodyView<Real>& bodies,
 }
 
 template <class Real, class Path>
+bool EventDriven<Real, Path>::runShared(const Search& search, const EventWindow<Real>& window,
+                                        std::vector<ContactRecord>* records,
+                                        ResolveCounts& counts) {
+    if constexpr (!falls) {
+        // Both bodies move by `reach` at most; rounding grows with how far anchors lie away, which
+        // is up to how far a body came in the run.
+        constexpr double eps = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+        const double way = 2 * static_cast<double>(window.reach) +
+                           eps * (farthest_ + fastest_ * std::abs(window.to));
+        if (!shared_ || !shared_->run(search, events_, window, way, records, counts)) return false;
+        fastest_ = std::max(fastest_, events_.fastest);
+        return true;
+    }
+    return false;
+}
+
+template <class Real, class Path>
 std::size_t EventDriven<Real, Path>::bytes() const {
     std::size_t sum = candidates_.bytes() + neighbours_.bytes() + events_.bytes() +
                       stamps_.capacity() * sizeof(std::uint32_t) +
                       found_.capacity() * sizeof(Found);
     for (const Found& found : found_) sum += found.events.bytes();
-    return sum;
+    return shared_ ? sum + shared_->bytes() : sum;
 }
 
 template <class Real>

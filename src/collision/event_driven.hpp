@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "collision/continuous_law.hpp"
 #include "collision/event_loop.hpp"
 #include "collision/neighbours.hpp"
+#include "collision/shared_events.hpp"
 #include "collision/trajectories.hpp"
 
 namespace quadrille {
@@ -41,6 +43,8 @@ class EventDriven final : public ContinuousLaw<Real> {
 
     void survey(const BodyView<Real>& bodies);
     void findAll(const Search& search, double from, double to);
+    bool runShared(const Search& search, const EventWindow<Real>& window,
+                   std::vector<ContactRecord>* records, ResolveCounts& counts);
 
     const ThreadTeam& team_;
     std::array<double, 2> gravity_;  // px/s^2
@@ -57,6 +61,7 @@ class EventDriven final : public ContinuousLaw<Real> {
     std::vector<std::uint32_t> stamps_;  // changes of each body so far
     std::vector<Found> found_;           // by each worker
     EventLoopState events_;
+    std::unique_ptr<SharedEvents<Real>> shared_;  // null where events take one thread
 };
 
 }  // namespace quadrille
