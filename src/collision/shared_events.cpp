@@ -8,7 +8,7 @@ namespace quadrille {
 namespace {
 
 /// From how many events on a step is shared out; each takes about half a microsecond.
-constexpr std::size_t worthSharing = 100;
+constexpr std::size_t worthSharing = 200;
 
 /// Steps without a try, at most.
 constexpr unsigned longestPause = 64;
