@@ -11,8 +11,7 @@ namespace quadrille {
 
 namespace {
 
-/// To claim a body costs about an eighth of what an event costs, and a split can at best halve the
-/// time of the events where there are two threads.
+/// To claim so many bodies costs a little more than to carry out the event.
 constexpr std::size_t mostBodiesPerEvent = 8;
 
 /// The part of the events that one worker may have, in quarters.

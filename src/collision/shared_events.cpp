@@ -7,7 +7,7 @@ namespace quadrille {
 
 namespace {
 
-/// From how many events on a step is shared out; each takes about half a microsecond.
+/// From how many events on a step is shared out; each takes about 0.4 us.
 constexpr std::size_t worthSharing = 200;
 
 /// Steps without a try, at most.

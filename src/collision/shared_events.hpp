@@ -20,9 +20,10 @@ namespace quadrille {
 ///    bodies may do with those of other workers: that happens after the step.
 /// 3. When all are done, these events are found from where the bodies are then.
 ///
-/// All of this stands on how far a body can get in a step, and every change of a body is checked
-/// against it. Should one go too far, by rounding or because a heavy body hits a light one, what
-/// has been done is undone.
+/// All of this stands on how far a body can get in a step. Equal masses exchange velocities and
+/// walls mirror them, so nothing gets faster than the fastest body was; but positions are rounded,
+/// and a heavy body may hit a light one. So every change of a body is checked against the bound,
+/// and should one go too far, what has been done is undone.
 template <class Real>
 class SharedEvents {
   public:
