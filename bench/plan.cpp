@@ -138,6 +138,7 @@ std::vector<Sweep> threadsPreset() {
         {.scenes = {"balanced", "balanced-scaled"},
          .entities = {50'000},
          .partitioners = {"semi-static-quadtree:10/20/skin"},
+         .laws = {Law::Impulse, Law::Continuous},
          .resolvers = resolvers},
         {.scenes = {"balanced-scaled"},
          .entities = {1'000'000},

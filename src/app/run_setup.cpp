@@ -51,9 +51,10 @@ std::size_t cudaPaysFrom(const PartitionerConfig& partitioner) {
 constexpr std::size_t threadsPayFrom = 10'000;
 
 ResolverKind chooseAutomatically(const SimulationConfig& config, std::size_t movingCount) {
-    if (config.law != Law::Impulse) return ResolverKind::Sequential;
+    if (config.law == Law::Baseline) return ResolverKind::Sequential;
     // The device is looked for last: that takes longer than many a small run.
-    if (movingCount >= cudaPaysFrom(config.partitioner) && findCudaDevice().usable()) {
+    if (config.law == Law::Impulse && movingCount >= cudaPaysFrom(config.partitioner) &&
+        findCudaDevice().usable()) {
         return ResolverKind::Cuda;
     }
     const bool several = config.threads > 0 ? config.threads > 1 : Simulation::cores() > 1;
@@ -65,7 +66,7 @@ ResolverKind chooseResolver(const Options& options, const SimulationConfig& conf
                             std::size_t movingCount) {
     if (options.resolver == "auto") return chooseAutomatically(config, movingCount);
     if (options.resolver == "sequential") return ResolverKind::Sequential;
-    if (options.resolver == "threads" && config.law == Law::Impulse) return ResolverKind::Threads;
+    if (options.resolver == "threads" && config.law != Law::Baseline) return ResolverKind::Threads;
     if (options.resolver == "cuda" && config.law != Law::Continuous) return ResolverKind::Cuda;
     const std::string reason = options.resolver == "cuda-resident"
                                    ? "the resolver 'cuda-resident' is not available yet"

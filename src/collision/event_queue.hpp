@@ -23,9 +23,9 @@ struct PairEvent {
     bool withStatic() const { return (b & staticBit) != 0; }
 };
 
-/// Events to come, the earliest first; ties go by the hash of the pair's entities, then by its
-/// rows. Those of the present step lie in a heap, which stays small that way; later ones in no
-/// order.
+/// Events to come, the earliest first; ties go by the hash of the pair's entities, then by its rows
+/// and by what happens, so that the order in which they are pushed does not matter. Those of the
+/// present step lie in a heap, which stays small that way; later ones in no order.
 class EventQueue {
   public:
     /// Goes on to the step that ends at `to`. The entities are those of the rows of moving and of
@@ -73,6 +73,30 @@ class EventQueue {
         later_.clear();
     }
 
+    // ---- or, where several queues share a step, each with some of its events
+
+    /// Goes on to the step of another queue, with these of its events.
+    void beginShare(const EventQueue& whole, std::span<const PairEvent> events) {
+        end_ = whole.end_;
+        order_ = whole.order_;
+        heap_.assign(events.begin(), events.end());
+        std::make_heap(heap_.begin(), heap_.end(), order_);
+        later_.clear();
+    }
+
+    /// Forgets the events of the present step.
+    void dropDue() { heap_.clear(); }
+
+    /// Takes all events of a queue that shared the step.
+    void take(EventQueue& share) {
+        for (const PairEvent& event : share.heap_) push(event);
+        later_.insert(later_.end(), share.later_.begin(), share.later_.end());
+        share.clear();
+    }
+
+    /// Whether p comes after q.
+    bool isLater(const PairEvent& p, const PairEvent& q) const { return order_(p, q); }
+
     std::size_t bytes() const { return (heap_.capacity() + later_.capacity()) * sizeof(PairEvent); }
 
   private:
@@ -94,7 +118,9 @@ class EventQueue {
             const std::uint32_t second = priority(q);
             if (first != second) return first > second;
             if (p.a != q.a) return p.a > q.a;
-            return p.b > q.b;
+            if (p.b != q.b) return p.b > q.b;
+            if (p.axes != q.axes) return p.axes > q.axes;
+            return p.release && !q.release;
         }
     };
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "collision/candidate_lists.hpp"
 #include "collision/cell_walk.hpp"
 #include "collision/event_queue.hpp"
 
@@ -13,23 +15,31 @@ namespace quadrille {
 /// For each moving body, the bodies that it may meet: rows, static ones with PairEvent::staticBit.
 class Neighbours {
   public:
-    void link(std::size_t rows, std::span<const MovingPair> moving,
-              std::span<const StaticPair> fixed) {
+    template <class Real>
+    void link(std::size_t rows, const CandidateLists<Real>& pairs) {
         starts_.assign(rows + 1, 0);
-        for (const MovingPair p : moving) {
-            ++starts_[p.a];
-            ++starts_[p.b];
-        }
-        for (const StaticPair p : fixed) ++starts_[p.a];
+        const auto forAll = [&](auto&& onMoving, auto&& onFixed) {
+            pairs.forShare(
+                0, 1,
+                [&](std::span<const MovingPair> p) { std::for_each(p.begin(), p.end(), onMoving); },
+                [&](std::span<const StaticPair> p) { std::for_each(p.begin(), p.end(), onFixed); });
+        };
+        forAll(
+            [&](MovingPair p) {
+                ++starts_[p.a];
+                ++starts_[p.b];
+            },
+            [&](StaticPair p) { ++starts_[p.a]; });
         std::uint32_t end = 0;
         for (std::size_t i = 0; i < rows; ++i) starts_[i] = end += starts_[i];
         starts_[rows] = end;
         others_.resize(end);
-        for (const MovingPair p : moving) {
-            others_[--starts_[p.a]] = p.b;
-            others_[--starts_[p.b]] = p.a;
-        }
-        for (const StaticPair p : fixed) others_[--starts_[p.a]] = p.fixed | PairEvent::staticBit;
+        forAll(
+            [&](MovingPair p) {
+                others_[--starts_[p.a]] = p.b;
+                others_[--starts_[p.b]] = p.a;
+            },
+            [&](StaticPair p) { others_[--starts_[p.a]] = p.fixed | PairEvent::staticBit; });
     }
 
     std::span<const std::uint32_t> operator[](std::uint32_t row) const {

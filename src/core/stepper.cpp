@@ -73,7 +73,7 @@ Stepper<Real>::Stepper(const SimulationConfig& config, const Vec2& worldSize, bo
         if (!partitioner_->partition().complete) {
             throw NotAvailable("the law 'continuous' needs a partition that misses no pair");
         }
-        continuous_ = makeContinuousLaw<Real>(config);
+        continuous_ = makeContinuousLaw<Real>(config, *team_);
     } else {
         try {
             resolver_ = makeResolver<Real>(config, *team_);

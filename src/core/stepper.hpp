@@ -8,10 +8,10 @@
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
+#include "collision/continuous_law.hpp"
 #include "collision/missed_pairs.hpp"
 #include "collision/partitioner.hpp"
 #include "collision/resolver.hpp"
-#include "collision/sequential_continuous.hpp"
 #include "collision/thread_team.hpp"
 #include "core/phase_clock.hpp"
 #include "core/step_times.hpp"

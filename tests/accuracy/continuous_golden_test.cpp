@@ -24,10 +24,9 @@ struct Collision {
 
 class GoldenRun {
   public:
-    GoldenRun(const Golden& golden, double dt, const PartitionerConfig& partitioner)
+    GoldenRun(const Golden& golden, const SimulationConfig& config)
         : scene_(loadScene(std::string(QUADRILLE_TEST_DATA) + "/golden/" + golden.name + ".toml")),
-          sim_(std::move(scene_.world),
-               {.partitioner = partitioner, .law = Law::Continuous, .dt = dt}) {
+          sim_(std::move(scene_.world), config) {
         sim_.onContact([this](const Contact& c) {
             collisions_.push_back({c.time, c.rowA, c.rowB, static_cast<int>(c.axis)});
         });
@@ -75,9 +74,15 @@ class GoldenRun {
     std::vector<Collision> collisions_;
 };
 
-void compare(const Golden& golden, double dt, const PartitionerConfig& partitioner, double until) {
+void compare(const Golden& golden, double dt, const PartitionerConfig& partitioner, double until,
+             int threads = 0) {
     SCOPED_TRACE(golden.name + ", dt " + std::to_string(dt) + ", " + name(partitioner));
-    GoldenRun run(golden, dt, partitioner);
+    GoldenRun run(golden,
+                  {.partitioner = partitioner,
+                   .law = Law::Continuous,
+                   .resolver = threads > 0 ? ResolverKind::Threads : ResolverKind::Sequential,
+                   .threads = threads,
+                   .dt = dt});
     for (const auto& state : golden.states) {
         // dense1600_t0.05 lies between two steps.
         if (state.label == "0.05" || state.time > until) continue;
@@ -114,6 +119,15 @@ TEST(ContinuousGolden, Dense1600) {
     compare(reference::dense1600, 1.0 / 60, SemiStaticQuadtree{}, 1);
     compare(reference::dense1600, 1.0 / 240, Quadtree{}, 0.25);
     compare(reference::dense1600, 1.0 / 960, StaticGrid{{5, 5}}, 0.25);
+}
+
+TEST(ContinuousGolden, OnThreads) {
+    // Steps with so many events that they are split.
+    for (const int threads : {2, 5}) {
+        compare(reference::a1700, 1.0 / 2, SemiStaticQuadtree{}, 60, threads);
+        compare(reference::dense1600, 1.0 / 16, SemiStaticQuadtree{}, 1, threads);
+        compare(reference::dense1600, 1.0 / 60, StaticGrid{}, 0.25, threads);
+    }
 }
 
 }  // namespace

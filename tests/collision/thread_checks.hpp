@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <quadrille/simulation.hpp>
+#include <quadrille/world.hpp>
+
+namespace quadrille {
+
+inline const std::vector<int> threadCounts = {1, 2, 3, 7, 16};
+
+/// Expects that the resolver `threads` gives step by step what `sequential` gives, bit for bit:
+/// state, contacts, cells, counts; with a listener and without. Loops are shared out however short
+/// they are. `edit(world, number)` may change the world before a step.
+void expectTheSameOnThreads(
+    const std::function<World()>& makeWorld, SimulationConfig config, std::uint64_t steps,
+    const std::vector<int>& threads,
+    const std::function<void(World&, std::uint64_t)>& edit = [](World&, std::uint64_t) {});
+
+}  // namespace quadrille
