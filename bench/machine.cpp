@@ -1,10 +1,12 @@
 #include "bench/machine.hpp"
 
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <thread>
 
+#include <quadrille/device.hpp>
 #include <quadrille/version.hpp>
 
 namespace quadrille::bench {
@@ -25,6 +27,19 @@ std::string loadAverage() {
     std::ifstream file("/proc/loadavg");
     std::string lastMinute;
     return file >> lastMinute ? lastMinute : "unknown";
+}
+
+/// The CUDA device and its driver, as "NVIDIA H200, driver 580.159.04".
+std::string device() {
+    const CudaDevice device = findCudaDevice();
+    if (!device.usable()) return "none";
+    // "NVRM version: NVIDIA UNIX Open Kernel Module for x86_64  580.159.04  Release Build ..."
+    std::ifstream file("/proc/driver/nvidia/version");
+    for (std::string word; file >> word;) {
+        const bool number = !word.empty() && std::isdigit(static_cast<unsigned char>(word[0])) != 0;
+        if (number && word.find('.') != std::string::npos) return device.name + ", driver " + word;
+    }
+    return device.name + ", driver unknown";
 }
 
 std::string compiler() {
@@ -57,10 +72,11 @@ std::string now() {
 
 std::vector<std::pair<std::string, std::string>> describeMachine() {
     return {
-        {"cpu", processor()},       {"cores", std::to_string(std::thread::hardware_concurrency())},
-        {"load", loadAverage()},    {"compiler", compiler()},
-        {"build", QUADRILLE_BUILD}, {"version", version},
-        {"commit", commit()},       {"date", now()}};
+        {"cpu", processor()},     {"cores", std::to_string(std::thread::hardware_concurrency())},
+        {"load", loadAverage()},  {"device", device()},
+        {"compiler", compiler()}, {"build", QUADRILLE_BUILD},
+        {"version", version},     {"commit", commit()},
+        {"date", now()}};
 }
 
 }  // namespace quadrille::bench

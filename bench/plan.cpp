@@ -1,5 +1,6 @@
 #include "bench/plan.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
@@ -7,34 +8,28 @@
 #include <tuple>
 #include <utility>
 
+#include <quadrille/device.hpp>
 #include <quadrille/error.hpp>
 
 #include "bench/partitioner_spec.hpp"
+#include "bench/report_figures.hpp"
 #include "bench/scene_files.hpp"
 
 namespace quadrille::bench {
 
 namespace {
 
-constexpr std::array<std::size_t, 5> reportCounts = {10, 100, 1'000, 10'000, 50'000};
-
-/// A row of "The same program on the benchmark machine" in the project's notes on the report
-/// (K. Han, J. Zhang, "Parallelizing 2D Collision Detection and Resolution", Carnegie Mellon
-/// University, December 2024): its published program on a host with 16 Xeon cores and an H200,
-/// dt 16 ms, 200 frames after 20, mean ms per frame on the balanced scene.
-struct ReportFigures {
+/// What the report has beside a partitioner on one core. It gives no figure for its semi-static
+/// tree without the GPU.
+struct ReportProgram {
     std::string_view partitioner;
-    std::string_view program;
-    std::array<double, reportCounts.size()> milliseconds;
+    std::string_view name;
+    ReportScheme scheme;
 };
-
-/// The report gives no figure for its semi-static tree without the GPU.
-constexpr std::array reportFigures = {
-    ReportFigures{
-        "static-grid", "report, StaticGrid sequential", {0.047, 0.059, 0.164, 1.91, 23.9}},
-    ReportFigures{"quadtree", "report, Quadtree sequential", {0.005, 0.062, 0.444, 4.00, 28.4}},
-    ReportFigures{
-        "semi-static-quadtree", "report, semi-static CUDA", {0.156, 0.158, 0.352, 2.42, 10.4}},
+constexpr std::array reportPrograms = {
+    ReportProgram{"static-grid", "report, StaticGrid sequential", ReportScheme::GridSequential},
+    ReportProgram{"quadtree", "report, Quadtree sequential", ReportScheme::QuadtreeSequential},
+    ReportProgram{"semi-static-quadtree", "report, semi-static CUDA", ReportScheme::SemiStaticCuda},
 };
 
 /// Parameters near the best of each partitioner at the density of the balanced scenes.
@@ -64,15 +59,20 @@ void parseResolver(std::string_view spec, Variant& variant) {
         variant.resolver = ResolverKind::Sequential;
         return;
     }
-    variant.resolver = ResolverKind::Threads;
     variant.threads = 0;
+    if (spec == "cuda") {
+        variant.resolver = ResolverKind::Cuda;
+        return;
+    }
+    variant.resolver = ResolverKind::Threads;
     if (spec == "threads") return;
     if (spec.starts_with(counted)) {
         const char* const end = spec.data() + spec.size();
         const auto read = std::from_chars(spec.data() + counted.size(), end, variant.threads);
         if (read.ec == std::errc() && read.ptr == end && variant.threads > 0) return;
     }
-    throw Error("resolver '" + std::string(spec) + "' is none of: sequential, threads, threads:N");
+    throw Error("resolver '" + std::string(spec) +
+                "' is none of: sequential, threads, threads:N, cuda");
 }
 
 std::string resolverSpecOf(const Variant& variant) {
@@ -147,15 +147,30 @@ std::vector<Sweep> threadsPreset() {
          .frames = 60}};
 }
 
+std::vector<Sweep> resolversPreset() {
+    Sweep sweep{
+        .scenes = {"balanced-scaled"},
+        .entities = {},
+        .partitioners = {"static-grid:26x26", "quadtree:10/20", "semi-static-quadtree:10/20/skin"},
+        .resolvers = {"sequential", "threads"}};
+    if (findCudaDevice().usable()) sweep.resolvers.push_back("cuda");
+    Sweep large = sweep;
+    sweep.entities = {1'000, 2'000, 5'000, 10'000, 20'000, 50'000};
+    large.entities = {200'000, 1'000'000};
+    large.frames = 60;
+    return {sweep, large};
+}
+
 std::optional<Reference> reportReference(const Measurement& measurement) {
     if (measurement.scene != "balanced") return {};
-    for (const ReportFigures& figures : reportFigures) {
-        if (figures.partitioner != name(measurement.variant.partitioner)) continue;
-        for (std::size_t i = 0; i < reportCounts.size(); ++i) {
-            if (reportCounts[i] == measurement.bodies) {
-                return Reference{std::string(figures.program), figures.milliseconds[i]};
-            }
-        }
+    const auto program =
+        std::find_if(reportPrograms.begin(), reportPrograms.end(), [&](const ReportProgram& p) {
+            return p.partitioner == name(measurement.variant.partitioner);
+        });
+    if (program == reportPrograms.end()) return {};
+    for (std::size_t i = 0; i < reportCounts.size(); ++i) {
+        if (reportCounts[i] != measurement.bodies) continue;
+        return Reference{std::string(program->name), programMilliseconds(program->scheme, i)};
     }
     return {};
 }

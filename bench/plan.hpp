@@ -22,8 +22,8 @@ struct Sweep {
     std::size_t frames = 200;
 };
 
-/// Reads `sequential`, `threads` (one for each core) or `threads:N` into the variant. Throws Error
-/// for anything else.
+/// Reads `sequential`, `threads` (one for each core), `threads:N` or `cuda` into the variant.
+/// Throws Error for anything else.
 void parseResolver(std::string_view spec, Variant& variant);
 
 /// The spec of the resolver of a variant; parseResolver reads it back.
@@ -40,6 +40,9 @@ std::vector<Sweep> targetsPreset();
 /// What the threads are worth on this machine: 1, 2, 4 and so on up to its cores, against the
 /// sequential resolver.
 std::vector<Sweep> threadsPreset();
+
+/// From how many bodies on each resolver of this machine is the fastest.
+std::vector<Sweep> resolversPreset();
 
 /// What a measurement is compared with.
 struct Reference {

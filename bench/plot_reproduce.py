@@ -91,7 +91,7 @@ def cells(folder):
 
 def profile(folder):
     """Table 2: where the time of a frame goes."""
-    table = rows(folder / "profile.csv")
+    table = [r for r in rows(folder / "profile.csv") if r["bodies"] == "20000"]
     if not table:
         return
     phases = list(dict.fromkeys(r["phase"] for r in table))

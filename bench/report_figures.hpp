@@ -48,6 +48,7 @@ struct ProfileRow {
     std::optional<double> programMilliseconds;
 };
 const std::vector<ProfileRow>& reportProfile();
+inline constexpr std::uint64_t reportProfileBodies = 20'000;
 inline constexpr double programProfileTotal = 3.73;  ///< ms a frame
 
 }  // namespace quadrille::bench

@@ -54,7 +54,7 @@ void addOptions(CLI::App& app, Options& options) {
     auto* precisions = app.add_option("--precisions", options.precisions, "(double)")
                            ->check(CLI::IsMember({"double", "float"}));
     auto* resolvers = app.add_option("--resolvers", options.resolvers,
-                                     "sequential, threads or threads:N (sequential)");
+                                     "sequential, threads, threads:N or cuda (sequential)");
     for (auto* list : {scenes, entities, partitioners, laws, precisions, resolvers}) {
         list->delimiter(',');
     }
@@ -69,8 +69,8 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--markdown", options.files.markdown, "write the table as Markdown");
     app.add_option("--preset", options.preset,
                    "report: the report's scaling experiment; targets: the project's own targets; "
-                   "threads: what threads are worth")
-        ->check(CLI::IsMember({"report", "targets", "threads"}))
+                   "threads: what threads are worth; resolvers: which one pays from which size on")
+        ->check(CLI::IsMember({"report", "targets", "threads", "resolvers"}))
         ->excludes(scenes)
         ->excludes(entities)
         ->excludes(partitioners);
@@ -78,10 +78,11 @@ void addOptions(CLI::App& app, Options& options) {
 
 /// The sweeps of the preset, or the one asked for, with the options that go with both.
 std::vector<Sweep> sweepsOf(const Options& options) {
-    std::vector<Sweep> sweeps = options.preset == "report"    ? reportPreset()
-                                : options.preset == "targets" ? targetsPreset()
-                                : options.preset == "threads" ? threadsPreset()
-                                                              : std::vector{options.sweep};
+    std::vector<Sweep> sweeps = options.preset == "report"      ? reportPreset()
+                                : options.preset == "targets"   ? targetsPreset()
+                                : options.preset == "threads"   ? threadsPreset()
+                                : options.preset == "resolvers" ? resolversPreset()
+                                                                : std::vector{options.sweep};
     for (Sweep& sweep : sweeps) {
         if (!options.laws.empty()) {
             sweep.laws = named(options.laws, {Law::Baseline, Law::Impulse, Law::Continuous});

@@ -61,9 +61,10 @@ ResolveCounts CudaBaseline<Real>::resolve(const BodyView<Real>& bodies,
         }
         resolveBaseline(launch, state_.bodies(), state_.cells(), order, step.restitution,
                         state_.touched());
-        state_.endPhase(Phase::Resolve);
+        state_.begin(Phase::CopyToHost);
         publishBaseline(launch, state_.bodies(), order, state_.touched(), state_.hostResult(),
                         2 * expected_);
+        state_.end(Phase::CopyToHost);
         counts = state_.finish();
         if (counts.collisions > none) {
             throw DeviceError("cuda: more contacts in a step than 32 bits can count");

@@ -114,9 +114,10 @@ void CudaImpulse<Real>::launchStep(const Partition<Real>& partition,
     }
     findSuccessors(launch, list(), expected_);
     resolveImpulse(launch, state_.bodies(), list(), step, state_.touched(), expected_);
-    state_.endPhase(Phase::Resolve);
+    state_.begin(Phase::CopyToHost);
     publishImpulse(launch, state_.bodies(), list(), state_.touched(), state_.hostResult(),
                    2 * expected_);
+    state_.end(Phase::CopyToHost);
 }
 
 template <class Real>

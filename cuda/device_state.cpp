@@ -1,5 +1,7 @@
 #include "cuda/device_state.hpp"
 
+#include <utility>
+
 #include <quadrille/device.hpp>
 #include <quadrille/error.hpp>
 
@@ -45,6 +47,29 @@ Stream::Stream(const CudaOptions& options) {
 
 Stream::~Stream() { cudaStreamDestroy(launch_.stream); }
 
+StreamTimer::~StreamTimer() {
+    if (from_ != nullptr) cudaEventDestroy(from_);
+    if (to_ != nullptr) cudaEventDestroy(to_);
+}
+
+void StreamTimer::start(cudaStream_t stream) {
+    if (from_ == nullptr) check(cudaEventCreate(&from_), "cudaEventCreate");
+    if (to_ == nullptr) check(cudaEventCreate(&to_), "cudaEventCreate");
+    check(cudaEventRecord(from_, stream), "cudaEventRecord");
+}
+
+void StreamTimer::stop(cudaStream_t stream) {
+    check(cudaEventRecord(to_, stream), "cudaEventRecord");
+    stopped_ = true;
+}
+
+double StreamTimer::take() {
+    if (!std::exchange(stopped_, false)) return 0;
+    float milliseconds = 0;
+    check(cudaEventElapsedTime(&milliseconds, from_, to_), "cudaEventElapsedTime");
+    return double(milliseconds) / 1e3;
+}
+
 void Stream::wait() const {
     check(cudaStreamSynchronize(launch_.stream), "a kernel or copy of this step");
 }
@@ -89,7 +114,7 @@ void DeviceState<Real>::upload(const BodyView<Real>& view) {
     const std::size_t fixedWidth = column(f.halfWidth), fixedHeight = column(f.halfHeight);
     const std::size_t fixedEntity = u.add(f.entity);
     u.flatten(team_);
-    endPhase(Phase::Flatten);
+    clock_->finish(Phase::Flatten);
     u.send(launch().stream);
 
     bodies_ = {.moving = {.x = u.on<Real>(x),
@@ -110,7 +135,9 @@ void DeviceState<Real>::upload(const BodyView<Real>& view) {
     touchedRows_.reserve(m.size());
     hostRows_.reserve(m.size());
     hostColumns_.reserve(4 * m.size());
-    endPhase(Phase::CopyToDevice);
+    // Else the host would go on with what others' phases are.
+    if (clock_->enabled()) stream_.wait();
+    clock_->finish(Phase::CopyToDevice);
 }
 
 template <class Real>
@@ -121,7 +148,7 @@ void DeviceState<Real>::beginStep(const BodyView<Real>& view, const StepParamete
     valid_ = false;  // until the step has succeeded
     if (!kept) upload(view);
     cuda::beginStep(launch(), bodies_, movingCount_, step, kept, counts_.data());
-    endPhase(Phase::Integrate);
+    clock_->finish(Phase::Integrate);
 }
 
 template <class Real>
@@ -136,8 +163,10 @@ bool DeviceState<Real>::updateCells(const Partition<Real>& partition, std::uint3
     if (partition.complete) owners = cells.coordinates;
     const std::size_t coordinates = u.add(owners);
     u.flatten(team_);
-    endPhase(Phase::Flatten);
+    clock_->finish(Phase::Flatten);
+    begin(Phase::CopyToDevice);
     u.send(launch().stream);
+    end(Phase::CopyToDevice);
     cells_ = {.offsets = u.on<const std::uint32_t>(offsets),
               .bodies = u.on<const std::uint32_t>(bodies),
               .cells = static_cast<std::uint32_t>(cells.size()),
@@ -147,7 +176,6 @@ bool DeviceState<Real>::updateCells(const Partition<Real>& partition, std::uint3
                   .grid = partition.grid,
                   .margin = partition.margin};
     generation_ = partition.generation;
-    endPhase(Phase::CopyToDevice);
     return true;
 }
 
@@ -177,6 +205,10 @@ HostResult<Real> DeviceState<Real>::hostResult() const {
 template <class Real>
 const StepCounts& DeviceState<Real>::finish() {
     stream_.wait();
+    clock_->finish(Phase::Resolve);
+    for (const Phase phase : {Phase::CopyToDevice, Phase::CopyToHost}) {
+        clock_->move(Phase::Resolve, phase, timerOf(phase).take());
+    }
     return *hostCounts_.data();
 }
 
@@ -197,14 +229,22 @@ void DeviceState<Real>::writeBack(const BodyView<Real>& view) {
         }
     });
     valid_ = true;
-    endPhase(Phase::CopyToHost);
+    clock_->finish(Phase::CopyToHost);
 }
 
 template <class Real>
-void DeviceState<Real>::endPhase(Phase phase) {
-    if (!clock_->enabled()) return;
-    stream_.wait();
-    clock_->finish(phase);
+StreamTimer& DeviceState<Real>::timerOf(Phase phase) {
+    return phase == Phase::CopyToDevice ? copyTimer_ : publishTimer_;
+}
+
+template <class Real>
+void DeviceState<Real>::begin(Phase phase) {
+    if (clock_->enabled()) timerOf(phase).start(launch().stream);
+}
+
+template <class Real>
+void DeviceState<Real>::end(Phase phase) {
+    if (clock_->enabled()) timerOf(phase).stop(launch().stream);
 }
 
 template <class Real>

@@ -29,6 +29,24 @@ class Stream {
     Launch launch_{};
 };
 
+/// Takes the time between two points of a stream.
+class StreamTimer {
+  public:
+    StreamTimer() = default;
+    ~StreamTimer();
+    StreamTimer(const StreamTimer&) = delete;
+    StreamTimer& operator=(const StreamTimer&) = delete;
+
+    void start(cudaStream_t stream);
+    void stop(cudaStream_t stream);
+    /// Of the last time, s; 0 if there was none since the last call. The stream must be done.
+    double take();
+
+  private:
+    cudaEvent_t from_ = nullptr, to_ = nullptr;
+    bool stopped_ = false;
+};
+
 /// A copy of bodies and cells on the device, kept up to date with as little copying as possible:
 /// bodies are sent when somebody edited them and otherwise moved on the device by the same rule as
 /// on the host, cells are sent when they were made, and only bodies that contacts have changed come
@@ -57,8 +75,10 @@ class DeviceState {
     /// Copies what contacts have changed to the host's bodies; the step has then succeeded.
     void writeBack(const BodyView<Real>& view);
 
-    /// Ends a phase in a profiled run, where each phase is waited for.
-    void endPhase(Phase phase);
+    /// Between these, the device does what belongs to a phase of its own. In a profiled run it
+    /// takes the time, so that nothing needs to be waited for but the end of the step.
+    void begin(Phase phase);
+    void end(Phase phase);
 
     const Launch& launch() const { return stream_.launch(); }
     const ThreadTeam& team() const { return team_; }
@@ -76,11 +96,13 @@ class DeviceState {
 
   private:
     void upload(const BodyView<Real>& view);
+    StreamTimer& timerOf(Phase phase);
 
     Stream stream_;
     const ThreadTeam& team_;
     MemoryBudget budget_;
     PhaseClock* clock_ = nullptr;
+    StreamTimer copyTimer_, publishTimer_;
 
     PackedUpload bodyUpload_{budget_};
     ImpulseBodies<Real> bodies_{};

@@ -68,23 +68,6 @@ __global__ void __launch_bounds__(largestBlock) findSuccessorsKernel(ContactList
 /// more than their number until a thread has many contacts.
 constexpr std::uint32_t mostForOneBlock = 4096;
 
-__device__ inline void prefetch(const void* address) {
-    asm volatile("prefetch.global.L1 [%0];" ::"l"(address));
-}
-
-/// Brings what a contact will need to the multiprocessor.
-template <class Real>
-__device__ void prefetch(const ImpulseBodies<Real>& bodies, const ContactList<Real>& list,
-                         std::uint32_t i) {
-    const PendingContact<Real>& c = list.contacts[i];
-    prefetch(&list.successors[i]);
-    const auto& m = bodies.moving;
-    for (const std::uint32_t row : {c.a, c.b}) {
-        if ((row & PendingContact<Real>::staticBit) != 0) continue;
-        for (const Real* column : {m.x, m.y, m.vx, m.vy}) prefetch(&column[row]);
-    }
-}
-
 /// Goes through the thread's contacts again and again until all are resolved. All threads must run
 /// at the same time: the earliest contact that is left can always be resolved, by whichever thread
 /// has it.
@@ -104,7 +87,6 @@ __global__ void __launch_bounds__(largestBlock)
     forOwnContacts(list, [&](std::uint32_t i) {
         ++left;
         if (waiting != list.waiting) waiting[i] = list.waiting[i];
-        if constexpr (Scope == ::cuda::thread_scope_block) prefetch(bodies, list, i);
     });
     if constexpr (Scope == ::cuda::thread_scope_block) __syncthreads();
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 
@@ -21,6 +22,15 @@ class PhaseClock {
         report_.phaseSeconds[static_cast<std::size_t>(phase)] +=
             std::chrono::duration<double>(now - last_).count();
         last_ = now;
+    }
+
+    /// Counts some of the time of one phase, but not more than it has, as another's.
+    void move(Phase from, Phase to, double seconds) {
+        if (!enabled_) return;
+        double& source = report_.phaseSeconds[static_cast<std::size_t>(from)];
+        const double moved = std::min(seconds, source);
+        source -= moved;
+        report_.phaseSeconds[static_cast<std::size_t>(to)] += moved;
     }
 
     bool enabled() const { return enabled_; }
