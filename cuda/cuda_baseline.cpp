@@ -41,7 +41,7 @@ ResolveCounts CudaBaseline<Real>::resolve(const BodyView<Real>& bodies,
     for (bool first = true;; first = false) {
         reserve();
         hitsFalse_ = false;
-        if (records != nullptr) contacts_.reserve(expected_);
+        if (records != nullptr && contacts_.reserve(expected_)) state_.clear(contacts_);
         const BaselineOrder<Real> order{.heads = heads_.data(),
                                         .next = next_.data(),
                                         .turns = turns_.data(),

@@ -55,7 +55,7 @@ template <class Real>
 void CudaImpulse<Real>::reserveContacts(std::uint64_t count) {
     capacity_ = 0;
     const std::uint32_t wanted = count32(count, "contacts");
-    contacts_.reserve(wanted);
+    if (contacts_.reserve(wanted)) state_.clear(contacts_);
     nextA_.reserve(wanted);
     nextB_.reserve(wanted);
     successors_.reserve(wanted);

@@ -97,6 +97,7 @@ DeviceState<Real>::DeviceState(const CudaOptions& options, const ThreadTeam& tea
     : stream_(options), team_(team) {
     budget_.limit = options.memoryLimit;
     counts_.reserve(1);
+    clear(counts_);
     hostCounts_.reserve(1);
 }
 

@@ -8,6 +8,7 @@
 #include "collision/partitioner.hpp"
 #include "collision/thread_team.hpp"
 #include "core/phase_clock.hpp"
+#include "cuda/check.hpp"
 #include "cuda/kernels.hpp"
 #include "cuda/memory.hpp"
 #include "cuda/packed_upload.hpp"
@@ -64,6 +65,13 @@ class DeviceState {
     /// step.
     bool updateCells(const Partition<Real>& partition, std::uint32_t movingCount);
 
+    /// Zeroes a new array. What is copied to the host as it is needs that: the gaps between the
+    /// members of its elements are copied, too.
+    template <class T>
+    void clear(const DeviceArray<T>& array) const {
+        check(cudaMemsetAsync(array.data(), 0, array.capacity() * sizeof(T), launch().stream),
+              "cudaMemsetAsync");
+    }
     /// Zeroes the counts within a step.
     void zeroCounts();
     /// Takes back what the step has done so far on the device, counts included.
