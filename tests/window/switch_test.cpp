@@ -64,11 +64,12 @@ TEST_F(WindowSwitch, AResolverThatIsChangedLiveChangesNothing) {
 TEST_F(WindowSwitch, ALawThatTheResolverDoesNotKnowRunsOnTheSequentialOne) {
     startPausedRun({"--resolver", "threads", "--json", file("run.json")});
     screen_->press("l");
+    screen_->press("l");
     screen_->press("period");
     ASSERT_TRUE(titleHas("step 1,"));
     close();
     const Json summary = Json::parse(contentOf(path("run.json")));
-    EXPECT_EQ(summary["law"], "continuous");
+    EXPECT_EQ(summary["law"], "baseline");
     EXPECT_EQ(summary["resolver"], "sequential");
     EXPECT_EQ(summary["requested_resolver"], "threads");
 }
