@@ -38,28 +38,22 @@ Start loadStart(const Options& options) {
             .step = scene.step};
 }
 
-/// Moving bodies from which a device is faster than one core under the law `impulse`, measured on
-/// an H200 beside a Xeon (docs/cuda.md). A tree with a skin leaves little to do in most steps.
-std::size_t cudaPaysFrom(const PartitionerConfig& partitioner) {
-    const auto* tree = std::get_if<SemiStaticQuadtree>(&partitioner);
-    const bool skin =
-        tree != nullptr && std::holds_alternative<SemiStaticQuadtree::Skin>(tree->rebuild);
-    return skin ? 20'000 : 5'000;
-}
+/// From how many moving bodies on a device is faster than any number of threads, as measured on an
+/// H100 beside 16 cores (docs/performance.md).
+constexpr std::size_t cudaPaysFrom = 10'000;
 
-/// From how many moving bodies on `auto` takes the threads: docs/performance.md has the figures.
-constexpr std::size_t threadsPayFrom = 10'000;
+/// From how many moving bodies on so many threads are worth it, measured there and on 2 cores.
+std::size_t threadsPayFrom(int threads) { return threads >= 4 ? 5'000 : 10'000; }
 
 ResolverKind chooseAutomatically(const SimulationConfig& config, std::size_t movingCount) {
     if (config.law == Law::Baseline) return ResolverKind::Sequential;
     // The device is looked for last: that takes longer than many a small run.
-    if (config.law == Law::Impulse && movingCount >= cudaPaysFrom(config.partitioner) &&
-        findCudaDevice().usable()) {
+    if (config.law == Law::Impulse && movingCount >= cudaPaysFrom && findCudaDevice().usable()) {
         return ResolverKind::Cuda;
     }
-    const bool several = config.threads > 0 ? config.threads > 1 : Simulation::cores() > 1;
-    return several && movingCount >= threadsPayFrom ? ResolverKind::Threads
-                                                    : ResolverKind::Sequential;
+    const int threads = config.threads > 0 ? config.threads : Simulation::cores();
+    return threads > 1 && movingCount >= threadsPayFrom(threads) ? ResolverKind::Threads
+                                                                 : ResolverKind::Sequential;
 }
 
 ResolverKind chooseResolver(const Options& options, const SimulationConfig& config,

@@ -140,6 +140,8 @@ TEST(Threads, AutoTakesThemForManyBodiesOnly) {
     };
     const Arguments four = {"--threads", "4"};
     EXPECT_EQ(resolverOf("1000", four)["resolver"], "sequential");
+    EXPECT_EQ(resolverOf("7000", four)["resolver"], "threads");
+    EXPECT_EQ(resolverOf("7000", {"--threads", "2"})["resolver"], "sequential");
     EXPECT_EQ(resolverOf("100000", {"--threads", "1"})["resolver"], "sequential");
     EXPECT_EQ(resolverOf("100000", {"--threads", "4", "--law", "baseline"})["resolver"],
               "sequential");

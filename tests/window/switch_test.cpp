@@ -62,8 +62,7 @@ TEST_F(WindowSwitch, AResolverThatIsChangedLiveChangesNothing) {
 }
 
 TEST_F(WindowSwitch, ALawThatTheResolverDoesNotKnowRunsOnTheSequentialOne) {
-    startPausedRun({"--resolver", "threads", "--json", file("run.json")});
-    screen_->press("l");
+    startPausedRun({"--law", "continuous", "--resolver", "threads", "--json", file("run.json")});
     screen_->press("l");
     screen_->press("period");
     ASSERT_TRUE(titleHas("step 1,"));
