@@ -145,10 +145,14 @@ void speedups(const Options& options) {
         std::cerr << "speed-up: " << scene << ' ' << (count ? std::to_string(*count) : "") << '\n';
         const std::vector<SchemeTimes> times = timeSchemes(scene, count, options);
         std::map<std::string, std::optional<accuracy::ErrorMetrics>> errors;
+        bool hasReference = true;
         for (const SchemeTimes& t : times) {
             const Measurement& m = t.measurement;
             const auto [found, isNew] = errors.try_emplace(errorKey(m.variant));
-            if (isNew) found->second = errorOf(scene, count, m.variant, options);
+            if (isNew && hasReference) {
+                found->second = errorOf(scene, count, m.variant, options);
+                hasReference = found->second.has_value();
+            }
             const std::optional<accuracy::ErrorMetrics>& error = found->second;
             const auto ofError = [&](auto&& value) {
                 return error ? orNone(value(*error)) : std::string(noValue);
