@@ -11,6 +11,17 @@ namespace quadrille {
 
 inline const std::vector<int> threadCounts = {1, 2, 3, 7, 16};
 
+/// One of each kind that misses no pair, and some with other parameters.
+inline const std::vector<PartitionerConfig> completePartitioners = {
+    BruteForce{},
+    StaticGrid{},
+    StaticGrid{{9, 14}},
+    Quadtree{},
+    Quadtree{6, 3},
+    SemiStaticQuadtree{},
+    SemiStaticQuadtree{8, 5, SemiStaticQuadtree::Skin{2}},
+};
+
 /// Expects that the resolver `threads` gives step by step what `sequential` gives, bit for bit:
 /// state, contacts, cells, counts; with a listener and without. Loops are shared out however short
 /// they are. `edit(world, number)` may change the world before a step.

@@ -16,18 +16,6 @@
 namespace quadrille {
 namespace {
 
-using Skin = SemiStaticQuadtree::Skin;
-
-const std::vector<PartitionerConfig> partitioners = {
-    BruteForce{},
-    StaticGrid{},
-    StaticGrid{{9, 14}},
-    Quadtree{},
-    Quadtree{6, 3},
-    SemiStaticQuadtree{},
-    SemiStaticQuadtree{8, 5, Skin{2}},
-};
-
 class ThreadsContinuous : public testing::TestWithParam<Precision> {};
 
 INSTANTIATE_TEST_SUITE_P(Precisions, ThreadsContinuous,
@@ -37,11 +25,11 @@ INSTANTIATE_TEST_SUITE_P(Precisions, ThreadsContinuous,
 TEST_P(ThreadsContinuous, RandomScenes) {
     for (const SceneKind kind : sceneKinds) {
         for (std::uint64_t seed = 200; seed < 207; ++seed) {
-            for (std::size_t i = 0; i < partitioners.size(); ++i) {
+            for (std::size_t i = 0; i < completePartitioners.size(); ++i) {
                 SCOPED_TRACE(std::string(name(kind)) + ", seed " + std::to_string(seed) +
                              ", partitioner " + std::to_string(i));
                 expectTheSameOnThreads([&] { return randomScene(kind, seed, 40, 100); },
-                                       {.partitioner = partitioners[i],
+                                       {.partitioner = completePartitioners[i],
                                         .law = Law::Continuous,
                                         .precision = GetParam(),
                                         .gravity = {0, seed % 6 == 4 ? -50.0 : 0.0},
@@ -115,7 +103,7 @@ TEST_P(ThreadsContinuous, AnEditedWorld) {
             }
         }
     };
-    for (const PartitionerConfig& partitioner : partitioners) {
+    for (const PartitionerConfig& partitioner : completePartitioners) {
         SCOPED_TRACE(name(partitioner));
         expectTheSameOnThreads(
             [] { return shippedScene("demo13k", 300).world; },
@@ -148,10 +136,10 @@ TEST_P(ThreadsContinuousFiles, EveryPartitionerAndNumberOfThreads) {
         return count > 0 ? shippedScene(scene, count) : shippedScene(scene);
     };
     const StepSettings step = load().step;
-    for (std::size_t i = 0; i < partitioners.size(); ++i) {
+    for (std::size_t i = 0; i < completePartitioners.size(); ++i) {
         SCOPED_TRACE("partitioner " + std::to_string(i));
         expectTheSameOnThreads([&] { return load().world; },
-                               {.partitioner = partitioners[i],
+                               {.partitioner = completePartitioners[i],
                                 .law = Law::Continuous,
                                 .precision = precision,
                                 .dt = step.dt,

@@ -20,19 +20,12 @@ namespace quadrille {
 namespace {
 
 using EveryFrames = SemiStaticQuadtree::EveryFrames;
-using Skin = SemiStaticQuadtree::Skin;
-
-const std::vector<PartitionerConfig> partitioners = {
-    BruteForce{},
-    StaticGrid{},
-    StaticGrid{{9, 14}},
-    Quadtree{},
-    Quadtree{6, 3},
-    SemiStaticQuadtree{},
-    SemiStaticQuadtree{8, 5, Skin{2}},
+const std::vector<PartitionerConfig> partitioners = [] {
+    auto all = completePartitioners;
     // Misses pairs, and shows some more than once.
-    SemiStaticQuadtree{10, 4, EveryFrames{7}},
-};
+    all.push_back(SemiStaticQuadtree{10, 4, EveryFrames{7}});
+    return all;
+}();
 
 class Threads : public testing::TestWithParam<Precision> {};
 
