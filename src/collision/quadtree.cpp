@@ -73,7 +73,7 @@ void QuadtreeBuilder<Real>::buildPieces(std::span<const TreeNode> nodes) {
         makeRoom(piece.cells.offsets);
         makeRoom(piece.cells.bodies);
         makeRoom(piece.cells.coordinates);
-        piece.builder.start(piece.cells, maxPerCell_);
+        piece.builder.start(piece.cells, maxPerCell_, 2);
         for (const TreeNode& node : piece.nodes) piece.builder.add(node);
         piece.builder.finish();
     });

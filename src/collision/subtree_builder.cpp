@@ -6,8 +6,9 @@
 
 namespace quadrille {
 
-void SubtreeBuilder::start(Cells& out, std::size_t maxPerCell) {
+void SubtreeBuilder::start(Cells& out, std::size_t maxPerCell, std::size_t room) {
     maxPerCell_ = maxPerCell;
+    room_ = room;
     out_ = &out;
     out.offsets.assign(1, 0);
     out.coordinates.clear();
@@ -22,7 +23,7 @@ void SubtreeBuilder::add(const TreeNode& node) {
         return;
     }
     ReferenceBuffer& level = levels_[static_cast<std::size_t>(node.shift)];
-    if (level.capacity() < 4 * node.count) level.reserve(8 * node.count);
+    if (level.capacity() < 4 * node.count) level.reserve(4 * room_ * node.count);
     const std::size_t stride = level.capacity() / 4;
     std::array<TreeReference*, 4> child;
     for (std::size_t k = 0; k < 4; ++k) child[k] = level.data() + k * stride;

@@ -74,8 +74,9 @@ struct TreeNode {
 /// Builds the leaves of a node in Z order, top down: the part of a quadtree that one thread makes.
 class SubtreeBuilder {
   public:
-    /// Leaves go to the end of `out`, which begins empty.
-    void start(Cells& out, std::size_t maxPerCell);
+    /// Leaves go to the end of `out`, which begins empty. Of the memory that a node needs, `room`
+    /// times as much is reserved, for larger ones to come.
+    void start(Cells& out, std::size_t maxPerCell, std::size_t room = 1);
     /// Throws Error if there are more entries than 32 bits can count.
     void add(const TreeNode& node);
     void finish();
@@ -87,6 +88,7 @@ class SubtreeBuilder {
 
     std::array<ReferenceBuffer, 16> levels_;  // four child lists each
     std::size_t maxPerCell_ = 1;
+    std::size_t room_ = 1;
     Cells* out_ = nullptr;
     std::size_t entries_ = 0;  // in out_->bodies
 };

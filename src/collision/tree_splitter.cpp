@@ -17,7 +17,7 @@ constexpr std::size_t most = 1024;
 constexpr std::size_t fewest = 128;
 constexpr std::size_t nodesPerWorker = 4;
 /// A thread alone cuts trees of so many bodies, which its cache does not hold.
-constexpr std::size_t large = 65'536;
+constexpr std::size_t large = 32'768;
 /// Levels to go down at once: with 1,365 squares to sort into, the counts stay in the cache.
 constexpr int mostLevels = 5;
 /// Bodies whose ranges are found and looked at before those of the next.
