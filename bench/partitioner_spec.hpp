@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
 namespace quadrille::bench {
 

@@ -7,7 +7,7 @@
 
 #include <quadrille/bodies.hpp>
 #include <quadrille/components.hpp>
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 #include <quadrille/scene.hpp>
 
 namespace quadrille::bench {

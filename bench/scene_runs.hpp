@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 #include <quadrille/scene.hpp>
 #include <quadrille/simulation.hpp>
 

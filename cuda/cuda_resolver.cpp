@@ -2,8 +2,8 @@
 
 #include <quadrille/error.hpp>
 
-#include "cuda/cuda_baseline.hpp"
-#include "cuda/cuda_impulse.hpp"
+#include "cuda/discrete/cuda_baseline.hpp"
+#include "cuda/discrete/cuda_impulse.hpp"
 
 namespace quadrille {
 

@@ -4,7 +4,7 @@
 
 #include <quadrille/cuda_options.hpp>
 
-#include "collision/step_parameters.hpp"
+#include "collision/rules/step_parameters.hpp"
 #include "cuda/types.hpp"
 
 /// Starts the kernels. All work goes to the stream of the launch and is not waited for; errors are
@@ -28,7 +28,7 @@ cudaError_t tryKernels();
 
 /// Zeroes the counts; with `advance`, moves the bodies by a step first.
 template <class Real>
-void beginStep(const Launch& launch, const ImpulseBodies<Real>& bodies, std::uint32_t movingCount,
+void beginStep(const Launch& launch, const Bodies<Real>& bodies, std::uint32_t movingCount,
                const StepParameters<Real>& step, bool advance, StepCounts* counts);
 
 // ---- contacts.cu
@@ -36,18 +36,18 @@ void beginStep(const Launch& launch, const ImpulseBodies<Real>& bodies, std::uin
 /// Appends the pairs of each cell that overlap when `inflation` is added to the sums of their half
 /// extents.
 template <class Real>
-void collectCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
-                       const DeviceCells& cells, const CellOwnership<Real>& ownership,
-                       Real inflation, const CandidateList& candidates);
+void collectCandidates(const Launch& launch, const Bodies<Real>& bodies, const DeviceCells& cells,
+                       const CellOwnership<Real>& ownership, Real inflation,
+                       const CandidateList& candidates);
 
 /// Finds the contacts among the pairs of each cell, and counts the pairs.
 template <class Real>
-void findContacts(const Launch& launch, const ImpulseBodies<Real>& bodies, const DeviceCells& cells,
+void findContacts(const Launch& launch, const Bodies<Real>& bodies, const DeviceCells& cells,
                   const CellOwnership<Real>& ownership, Real dt, const ContactList<Real>& contacts);
 
 /// Finds the contacts among `count` candidate pairs.
 template <class Real>
-void testCandidates(const Launch& launch, const ImpulseBodies<Real>& bodies,
+void testCandidates(const Launch& launch, const Bodies<Real>& bodies,
                     const CandidatePair* candidates, std::uint32_t count, Real dt,
                     const ContactList<Real>& contacts);
 
@@ -61,14 +61,14 @@ void findSuccessors(const Launch& launch, const ContactList<Real>& contacts,
 /// Resolves each contact after those that it waits for. Does nothing if there was no room for all
 /// contacts.
 template <class Real>
-void resolveImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
+void resolveImpulse(const Launch& launch, const Bodies<Real>& bodies,
                     const ContactList<Real>& contacts, const StepParameters<Real>& step,
                     const TouchedBodies& touched, std::uint32_t expected);
 
 /// Writes the counts, and the bodies that contacts have changed, to the host; makes the lists of
 /// these bodies empty again.
 template <class Real>
-void publishImpulse(const Launch& launch, const ImpulseBodies<Real>& bodies,
+void publishImpulse(const Launch& launch, const Bodies<Real>& bodies,
                     const ContactList<Real>& contacts, const TouchedBodies& touched,
                     const HostResult<Real>& result, std::uint32_t expected);
 
@@ -82,13 +82,13 @@ void findCellTurns(const Launch& launch, const DeviceCells& cells,
 /// Resolves the cells in ascending order, as far as they share bodies. The order's `done` must be
 /// zero.
 template <class Real>
-void resolveBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
-                     const DeviceCells& cells, const BaselineOrder<Real>& order, Real restitution,
+void resolveBaseline(const Launch& launch, const Bodies<Real>& bodies, const DeviceCells& cells,
+                     const BaselineOrder<Real>& order, Real restitution,
                      const TouchedBodies& touched);
 
 /// Gives the touched bodies their future velocities, and writes them and the counts to the host.
 template <class Real>
-void publishBaseline(const Launch& launch, const ImpulseBodies<Real>& bodies,
+void publishBaseline(const Launch& launch, const Bodies<Real>& bodies,
                      const BaselineOrder<Real>& order, const TouchedBodies& touched,
                      const HostResult<Real>& result, std::uint32_t expected);
 

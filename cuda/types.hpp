@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "collision/canonical_order.hpp"
-#include "collision/fine_grid.hpp"
-#include "collision/impulse_contact.hpp"
+#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/fine_grid.hpp"
+#include "collision/rules/impulse_contact.hpp"
 
 /// What kernels are given. All pointers are to device memory unless it says otherwise.
 

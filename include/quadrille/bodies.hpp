@@ -6,21 +6,10 @@
 #include <span>
 #include <vector>
 
-#include <quadrille/column.hpp>
+#include <quadrille/detail/anchor.hpp>
+#include <quadrille/detail/column.hpp>
 
 namespace quadrille {
-
-/// How coordinates and velocities are stored and computed.
-enum class Precision : std::uint8_t { Double, Float };
-
-/// Where, when and how fast a body set out on its present path, along each axis: one record,
-/// because an event reads all of it.
-template <class Real>
-struct Anchor {
-    Real x, y;            ///< px
-    Real vx, vy;          ///< px/s
-    double timeX, timeY;  ///< s; NaN for a body that is new or was edited from outside
-};
 
 /// Exact motion, kept by the law `continuous`.
 template <class Real>

@@ -16,9 +16,10 @@
 
 #include <quadrille/bodies.hpp>
 #include <quadrille/components.hpp>
+#include <quadrille/config.hpp>
+#include <quadrille/detail/pool.hpp>
 #include <quadrille/entity.hpp>
 #include <quadrille/error.hpp>
-#include <quadrille/pool.hpp>
 #include <quadrille/random.hpp>
 #include <quadrille/vec2.hpp>
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 #include <quadrille/simulation.hpp>
 
 #include "app/window_options.hpp"

@@ -5,9 +5,9 @@
 #include <quadrille/error.hpp>
 
 #include "collision/cuda_resolver.hpp"
-#include "collision/sequential_baseline.hpp"
-#include "collision/sequential_impulse.hpp"
-#include "collision/threads_impulse.hpp"
+#include "collision/discrete/sequential_baseline.hpp"
+#include "collision/discrete/sequential_impulse.hpp"
+#include "collision/discrete/threads_impulse.hpp"
 
 namespace quadrille {
 

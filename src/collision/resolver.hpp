@@ -7,9 +7,9 @@
 #include <quadrille/bodies.hpp>
 #include <quadrille/simulation.hpp>
 
-#include "collision/partitioner.hpp"
-#include "collision/step_parameters.hpp"
-#include "collision/thread_team.hpp"
+#include "collision/broad/partitioner.hpp"
+#include "collision/rules/step_parameters.hpp"
+#include "parallel/thread_team.hpp"
 
 namespace quadrille {
 

@@ -5,9 +5,9 @@
 
 #include <quadrille/measure.hpp>
 
-#include "collision/canonical_order.hpp"
-#include "collision/narrow_phase.hpp"
-#include "collision/partitioner.hpp"
+#include "collision/broad/partitioner.hpp"
+#include "collision/pairs/narrow_phase.hpp"
+#include "collision/rules/canonical_order.hpp"
 
 namespace quadrille {
 

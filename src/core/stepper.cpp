@@ -7,7 +7,7 @@
 
 #include <quadrille/error.hpp>
 
-#include "collision/motion.hpp"
+#include "collision/rules/motion.hpp"
 
 namespace quadrille {
 

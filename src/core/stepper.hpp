@@ -8,13 +8,13 @@
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
-#include "collision/continuous_law.hpp"
-#include "collision/missed_pairs.hpp"
-#include "collision/partitioner.hpp"
+#include "collision/broad/partitioner.hpp"
+#include "collision/continuous/continuous_law.hpp"
+#include "collision/pairs/missed_pairs.hpp"
+#include "collision/phase_clock.hpp"
 #include "collision/resolver.hpp"
-#include "collision/thread_team.hpp"
-#include "core/phase_clock.hpp"
 #include "core/step_times.hpp"
+#include "parallel/thread_team.hpp"
 
 namespace quadrille {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/canonical_order.hpp"
+#include "collision/rules/canonical_order.hpp"
 #include "hard_cases/hard_case.hpp"
 
 // Details of the law `continuous` that scenes at large hardly show: events at the ends of steps,

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
-#include "collision/partitioner.hpp"
+#include "collision/broad/partitioner.hpp"
 #include "partition_checks.hpp"
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "collision/contact_law.hpp"
+#include "collision/rules/contact_law.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "collision/canonical_order.hpp"
-#include "collision/canonical_sort.hpp"
+#include "collision/discrete/canonical_sort.hpp"
+#include "collision/rules/canonical_order.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"
 

@@ -1,11 +1,11 @@
-#include "collision/event_islands.hpp"
+#include "collision/continuous/event_islands.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "collision/candidate_lists.hpp"
+#include "collision/pairs/candidate_lists.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"
 

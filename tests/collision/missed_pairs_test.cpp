@@ -1,6 +1,6 @@
 // The report's policy, rebuild every K frames without a skin, misses pairs, and they are counted.
 
-#include "collision/missed_pairs.hpp"
+#include "collision/pairs/missed_pairs.hpp"
 
 #include <algorithm>
 #include <cstdint>

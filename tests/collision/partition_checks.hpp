@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
-#include "collision/narrow_phase.hpp"
-#include "collision/partitioner.hpp"
+#include "collision/broad/partitioner.hpp"
+#include "collision/pairs/narrow_phase.hpp"
 
 namespace quadrille {
 

@@ -1,4 +1,4 @@
-#include "collision/partitioner.hpp"
+#include "collision/broad/partitioner.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
-#include "collision/narrow_phase.hpp"
+#include "collision/pairs/narrow_phase.hpp"
 #include "partition_checks.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"

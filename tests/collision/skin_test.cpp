@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
-#include "collision/narrow_phase.hpp"
-#include "collision/partitioner.hpp"
+#include "collision/broad/partitioner.hpp"
+#include "collision/pairs/narrow_phase.hpp"
 #include "partition_checks.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"

@@ -1,4 +1,4 @@
-#include "collision/thread_team.hpp"
+#include "parallel/thread_team.hpp"
 
 #include <algorithm>
 #include <atomic>

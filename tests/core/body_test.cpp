@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
-#include <quadrille/column.hpp>
+#include <quadrille/detail/column.hpp>
 #include <quadrille/measure.hpp>
 #include <quadrille/world.hpp>
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "collision/canonical_order.hpp"
-#include "collision/contact_law.hpp"
+#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_law.hpp"
 
 // The contact law and the canonical order must give the same bits on host and device: everything
 // that resolves contacts in parallel rests on that.

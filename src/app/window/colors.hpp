@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include <quadrille/components.hpp>
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
 namespace quadrille::app {
 

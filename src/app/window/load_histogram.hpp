@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <quadrille/partitioner.hpp>
+#include <quadrille/partitioner_config.hpp>
 
 namespace quadrille::app {
 

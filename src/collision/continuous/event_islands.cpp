@@ -1,0 +1,196 @@
+#include "collision/continuous/event_islands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "collision/pairs/cell_walk.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// To claim so many bodies costs a little more than to carry out the event.
+constexpr std::size_t mostBodiesPerEvent = 8;
+
+/// The part of the events that one worker may have, in quarters.
+constexpr std::size_t mostQuarters = 3;
+
+/// How much of the mean one worker may have before the islands are dealt out anew, in quarters.
+constexpr std::size_t unevenQuarters = 5;
+
+/// After how many bodies a worker tells the others.
+constexpr std::size_t reportEvery = 64;
+
+}  // namespace
+
+template <class Real>
+bool EventIslands<Real>::split(const BodyView<Real>& bodies, const Neighbours& neighbours,
+                               std::span<const PairEvent> events, double way) {
+    if (bodies.moving.size() > rowCount_) {
+        rowCount_ = std::max(bodies.moving.size(), rowCount_ + rowCount_ / 2);
+        rows_ = std::make_unique<Row[]>(rowCount_);
+    }
+    const std::size_t most =
+        team_.eager() ? bodies.moving.size() : mostBodiesPerEvent * events.size();
+    claimedCount_.store(0, std::memory_order_relaxed);
+    team_.run(team_.size(), [&](unsigned worker) {
+        const std::size_t begin = events.size() * worker / team_.size();
+        const std::size_t end = events.size() * (worker + 1) / team_.size();
+        flood(bodies, neighbours, events.subspan(begin, end - begin), way, most,
+              workers_[worker].claimed);
+    });
+    std::size_t claimed = 0;
+    for (const Worker& worker : workers_) claimed += worker.claimed.size();
+    return claimed <= most && distribute(events);
+}
+
+template <class Real>
+void EventIslands<Real>::flood(const BodyView<Real>& bodies, const Neighbours& neighbours,
+                               std::span<const PairEvent> events, double way, std::size_t most,
+                               std::vector<std::uint32_t>& claimed) {
+    const auto& m = bodies.moving;
+    constexpr double rounded = 1 + 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+    const auto near = [&](double a, double b, double halfA, double halfB) {
+        return std::abs(b - a) < (halfA + halfB) * rounded + way;
+    };
+    const auto close = [&](const auto& sizes, std::uint32_t a, std::uint32_t b) {
+        return near(m.x[a], m.x[b], sizes.width(a), sizes.width(b)) &&
+               near(m.y[a], m.y[b], sizes.height(a), sizes.height(b));
+    };
+    for (const PairEvent& event : events) {
+        claim(event.a, claimed);
+        if (event.withStatic()) continue;
+        claim(event.b, claimed);
+        unite(event.a, event.b);
+    }
+#if defined(__GNUC__)
+    // All at once: one after the other, each would be waited for.
+    for (const std::uint32_t row : claimed) {
+        for (const std::uint32_t b : neighbours[row]) {
+            if ((b & PairEvent::staticBit) != 0) continue;
+            __builtin_prefetch(m.x.data() + b);
+            __builtin_prefetch(m.y.data() + b);
+        }
+    }
+#endif
+    withSizes(bodies, [&](const auto& sizes) {
+        std::size_t reported = 0;
+        for (std::size_t i = 0; i < claimed.size(); ++i) {
+            const std::uint32_t row = claimed[i];
+            for (const std::uint32_t b : neighbours[row]) {
+                if ((b & PairEvent::staticBit) != 0 || !close(sizes, row, b)) continue;
+                claim(b, claimed);
+                // Whoever claimed b sees this pair, too.
+                if (row < b) unite(row, b);
+            }
+            if (claimed.size() < reported + reportEvery) continue;
+            const std::size_t news = claimed.size() - reported;
+            reported = claimed.size();
+            if (claimedCount_.fetch_add(news, std::memory_order_relaxed) + news > most) return;
+        }
+    });
+}
+
+/// Adds a body to the list of who claims it first.
+template <class Real>
+void EventIslands<Real>::claim(std::uint32_t row, std::vector<std::uint32_t>& claimed) {
+    if (isClaimed(row)) return;
+    std::uint32_t expected = none;
+    if (!rows_[row].parent.compare_exchange_strong(expected, row, std::memory_order_acq_rel)) {
+        return;
+    }
+    rows_[row].events = 0;
+    rows_[row].changed = false;
+    claimed.push_back(row);
+}
+
+/// Halves the way to the root as it goes (Tarjan & van Leeuwen 1984).
+template <class Real>
+std::uint32_t EventIslands<Real>::rootOf(std::uint32_t row) const {
+    for (;;) {
+        std::uint32_t parent = rows_[row].parent.load(std::memory_order_acquire);
+        const std::uint32_t next = rows_[parent].parent.load(std::memory_order_acquire);
+        if (parent == next) return parent;
+        rows_[row].parent.compare_exchange_weak(parent, next, std::memory_order_acq_rel,
+                                                std::memory_order_relaxed);
+        row = next;
+    }
+}
+
+template <class Real>
+void EventIslands<Real>::unite(std::uint32_t a, std::uint32_t b) {
+    for (;;) {
+        std::uint32_t low = rootOf(a);
+        std::uint32_t high = rootOf(b);
+        if (low == high) return;
+        if (low > high) std::swap(low, high);
+        std::uint32_t expected = high;
+        if (rows_[high].parent.compare_exchange_strong(expected, low, std::memory_order_acq_rel)) {
+            return;
+        }
+    }
+}
+
+/// Gives each island to the worker that met its first event, and so has its bodies in the cache; if
+/// that is uneven, the island with the most events first, each to the worker that has the fewest
+/// (Graham 1969). Returns whether they are spread well enough.
+template <class Real>
+bool EventIslands<Real>::distribute(std::span<const PairEvent> events) {
+    const std::size_t workers = workers_.size();
+    islands_.clear();
+    loads_.assign(workers, 0);
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const std::uint32_t root = rootOf(events[i].a);
+        if (rows_[root].events++ == 0) {
+            islands_.push_back({root, 0});
+            rows_[root].worker = static_cast<std::uint16_t>(i * workers / events.size());
+        }
+        ++loads_[rows_[root].worker];
+    }
+    const auto largest = [&] { return *std::max_element(loads_.begin(), loads_.end()); };
+    if (4 * workers * largest() > unevenQuarters * events.size()) {
+        for (Island& island : islands_) island.events = rows_[island.root].events;
+        std::sort(islands_.begin(), islands_.end(), [](const Island& p, const Island& q) {
+            return p.events != q.events ? p.events > q.events : p.root < q.root;
+        });
+        loads_.assign(workers, 0);
+        for (const Island& island : islands_) {
+            const auto least = std::min_element(loads_.begin(), loads_.end());
+            *least += island.events;
+            rows_[island.root].worker = static_cast<std::uint16_t>(least - loads_.begin());
+        }
+    }
+    if (!team_.eager() && 4 * largest() > mostQuarters * events.size()) return false;
+    for (Worker& worker : workers_) worker.events.clear();
+    for (const PairEvent& event : events) {
+        workers_[rows_[rootOf(event.a)].worker].events.push_back(event);
+    }
+    return true;
+}
+
+template <class Real>
+void EventIslands<Real>::forget(unsigned worker) {
+    for (const std::uint32_t row : workers_[worker].claimed) {
+        rows_[row].parent.store(none, std::memory_order_release);
+    }
+    workers_[worker].claimed.clear();
+}
+
+template <class Real>
+std::size_t EventIslands<Real>::bytes() const {
+    std::size_t sum = rowCount_ * sizeof(Row) + islands_.capacity() * sizeof(Island) +
+                      workers_.capacity() * sizeof(Worker) +
+                      loads_.capacity() * sizeof(std::size_t);
+    for (const Worker& worker : workers_) {
+        sum += worker.claimed.capacity() * sizeof(std::uint32_t) +
+               worker.events.capacity() * sizeof(PairEvent);
+    }
+    return sum;
+}
+
+template class EventIslands<double>;
+template class EventIslands<float>;
+
+}  // namespace quadrille

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "collision/discrete/canonical_sort.hpp"
+#include "collision/discrete/contact_graph.hpp"
+#include "collision/pairs/threads_narrow_phase.hpp"
+#include "collision/resolver.hpp"
+#include "collision/rules/impulse_contact.hpp"
+
+namespace quadrille {
+
+/// The law `impulse` on several threads, bit for bit what SequentialImpulse does.
+///
+/// A contact may be resolved as soon as it is the first pending one of both its bodies; any such
+/// order gives the state that the canonical one gives (deterministic reservations: Blelloch,
+/// Fineman, Gibbons & Shun, "Internally deterministic parallel algorithms can be fast", 2012).
+/// Workers find contacts in regions of their own, so that nearly every body has contacts of one
+/// worker only. Each worker goes through its contacts in canonical order and puts off those that
+/// touch a body of several workers, or a body that an earlier contact was put off for. What is left
+/// is little, and resolved one by one, unless bodies lie in piles; then a ContactGraph takes it.
+template <class Real>
+class ThreadsImpulse final : public Resolver<Real> {
+  public:
+    /// `team` must outlive the resolver.
+    explicit ThreadsImpulse(const ThreadTeam& team);
+
+    ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
+                          const StepParameters<Real>& step,
+                          std::vector<ContactRecord>* records) override;
+
+    std::size_t bytes() const override;
+
+  private:
+    using Contacts = std::vector<PendingContact<Real>>;
+    using Mark = std::uint32_t;
+
+    struct alignas(64) Worker {
+        CanonicalSort<Real> sort;
+        ResolveCounts counts;
+    };
+
+    std::size_t pending() const;
+    void startMarks(std::size_t movingCount);
+    void claim(std::uint32_t body, unsigned worker);
+    Mark markOf(unsigned worker) const { return held_ + 1 + worker; }
+    bool free(const PendingContact<Real>& c, unsigned worker) const;
+    void hold(const PendingContact<Real>& c);
+    void resolveOwn(const Bodies<Real>& bodies, const StepParameters<Real>& step, unsigned worker);
+    void resolveRest(const Bodies<Real>& bodies, const StepParameters<Real>& step, bool complete,
+                     std::vector<ContactRecord>* records, ResolveCounts& counts);
+
+    const ThreadTeam& team_;
+    ThreadsNarrowPhase<Real> narrowPhase_;
+    std::vector<ContactList<Real>> found_;  // by each worker; in the end, what it put off
+    std::vector<Worker> workers_;
+    ContactGraph<Real> graph_;
+    Contacts rest_;  // of all workers
+    CanonicalSort<Real> sortRest_;
+
+    // A mark for each moving body: below held_ it is of an earlier step and means nothing; held_
+    // says that contacts of this body must wait; more is the worker that has contacts with it.
+    std::unique_ptr<std::atomic<Mark>[]> marks_;
+    std::size_t markCount_ = 0;
+    Mark held_ = 0;
+};
+
+}  // namespace quadrille

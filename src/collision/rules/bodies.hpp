@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+#include <quadrille/body_ref.hpp>
+#include <quadrille/detail/anchor.hpp>
+#include <quadrille/detail/host_device.hpp>
+
+/// The body columns over plain pointers, in host or in device memory: what every rule reads and
+/// writes.
+
+namespace quadrille {
+
+/// One number a row, or one that stands for all rows.
+template <class Real>
+struct SharedColumn {
+    const Real* values;  ///< null if all rows have the common value
+    Real common;
+
+    QUADRILLE_HD Real operator[](std::uint32_t row) const {
+        return values != nullptr ? values[row] : common;
+    }
+};
+
+/// The number of each row in the order of creation. Every order that decides about a result ends in
+/// these and never in rows, so that storage may be permuted without a change of bits.
+struct CreationNumbers {
+    const std::uint32_t* values;  ///< null while rows lie in the order of creation
+
+    QUADRILLE_HD std::uint32_t operator[](std::uint32_t row) const {
+        return values != nullptr ? values[row] : row;
+    }
+};
+
+template <class Real>
+struct Bodies {
+    struct Moving {
+        Real *x, *y, *vx, *vy;
+        SharedColumn<Real> halfWidth, halfHeight, mass;
+        const std::uint32_t* entity;
+        CreationNumbers created;
+        Anchor<Real>* anchors;  ///< of the law `continuous`, else null
+        /// Bit 0 along x, bit 1 along y: whether the body rests on something and does not fall.
+        /// Null where nothing can.
+        std::uint8_t* rests;
+    } moving;
+    struct Static {
+        const Real *x, *y, *halfWidth, *halfHeight;
+        const std::uint32_t* entity;
+        CreationNumbers created;
+    } fixed;
+};
+
+}  // namespace quadrille
