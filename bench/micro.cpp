@@ -28,11 +28,9 @@ void stepScene(benchmark::State& state, const std::string& scene,
     SceneOptions options;
     options.entities = bodies;
     Scene loaded = loadScene(QUADRILLE_BENCH_SCENES_DIR "/" + scene + ".toml", options);
-    Simulation simulation(std::move(loaded.world), {.partitioner = partitioner,
-                                                    .precision = precision,
-                                                    .dt = loaded.step.dt,
-                                                    .gravity = loaded.step.gravity,
-                                                    .restitution = loaded.step.restitution});
+    Simulation simulation(
+        std::move(loaded.world),
+        {.partitioner = partitioner, .precision = precision, .step = loaded.step});
     simulation.run(warmupSteps);
 
     std::uint64_t contacts = 0, rebuilds = 0;
@@ -54,7 +52,8 @@ void stepScene(benchmark::State& state, const std::string& scene,
 
 void registerStep(const std::string& scene, const PartitionerConfig& partitioner,
                   Precision precision, std::int64_t bodies) {
-    const std::string label = scene + "/" + name(partitioner) + "/" + std::string(name(precision));
+    const std::string label =
+        scene + "/" + std::string(name(partitioner)) + "/" + std::string(name(precision));
     benchmark::RegisterBenchmark(
         label.c_str(),
         [=](benchmark::State& state) { stepScene(state, scene, partitioner, precision); })

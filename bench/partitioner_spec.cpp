@@ -5,15 +5,13 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "bench/table.hpp"
 
 namespace quadrille::bench {
 
 namespace {
-
-const std::array<PartitionerConfig, 4> defaults = {BruteForce{}, StaticGrid{}, Quadtree{},
-                                                   SemiStaticQuadtree{}};
 
 /// The part of a spec after the name, read field by field.
 class Fields {
@@ -44,9 +42,7 @@ class Fields {
     }
 
     [[noreturn]] void fail() const {
-        throw Error("partitioner '" + std::string(spec_) +
-                    "' is none of: brute-force, static-grid:WxH, quadtree:DEPTH/MAX, "
-                    "semi-static-quadtree:DEPTH/MAX[/skin|/skin=W|/every=K]");
+        throw Error("partitioner '" + std::string(spec_) + "' is none of: " + partitionerSpecs());
     }
 
   private:
@@ -112,19 +108,27 @@ PartitionerConfig parsePartitioner(std::string_view spec) {
     const auto colon = spec.find(':');
     const bool bare = colon == std::string_view::npos;
     Fields fields(spec, bare ? std::string_view() : spec.substr(colon + 1));
-    for (PartitionerConfig config : defaults) {
-        if (spec.substr(0, colon) != name(config)) continue;
-        if (!bare) std::visit([&](auto& partitioner) { read(fields, partitioner); }, config);
-        if (!fields.done()) fields.fail();
-        return config;
+    auto config = find(partitioners(), spec.substr(0, colon));
+    if (!config) fields.fail();
+    if (!bare) std::visit([&](auto& partitioner) { read(fields, partitioner); }, *config);
+    if (!fields.done()) fields.fail();
+    return *config;
+}
+
+std::string partitionerSpecs() {
+    constexpr std::array forms = {"", ":WxH", ":DEPTH/MAX", ":DEPTH/MAX[/skin|/skin=W|/every=K]"};
+    std::string text;
+    for (const auto& named : partitioners()) {
+        text += (text.empty() ? "" : ", ") + std::string(named.name) + forms[named.kind.index()];
     }
-    fields.fail();
+    return text;
 }
 
 std::string specOf(const PartitionerConfig& config) {
     const std::string parameters =
         std::visit([](const auto& partitioner) { return parametersOf(partitioner); }, config);
-    return parameters.empty() ? name(config) : name(config) + ':' + parameters;
+    const std::string spec(name(config));
+    return parameters.empty() ? spec : spec + ':' + parameters;
 }
 
 }  // namespace quadrille::bench

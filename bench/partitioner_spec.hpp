@@ -15,6 +15,9 @@ namespace quadrille::bench {
 /// Throws Error for anything else.
 PartitionerConfig parsePartitioner(std::string_view spec);
 
+/// All forms that there are, for messages.
+std::string partitionerSpecs();
+
 /// The spec with all parameters; parsePartitioner reads it back.
 std::string specOf(const PartitionerConfig& config);
 

@@ -20,7 +20,7 @@ class Peer {
     virtual void step() = 0;
 
     /// Writes where the bodies are and how fast, into the rows of the world that they came from.
-    virtual void read(const BodyView<double>::Moving& rows) const = 0;
+    virtual void read(const MutableBodyView<double>::Moving& rows) const = 0;
 };
 
 /// How to make one; a row of the table.

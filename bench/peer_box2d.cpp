@@ -26,7 +26,7 @@ class Box2dPeer final : public Peer {
 
     void step() override { world_.Step(dt_, velocityIterations, positionIterations); }
 
-    void read(const BodyView<double>::Moving& rows) const override {
+    void read(const MutableBodyView<double>::Moving& rows) const override {
         for (std::size_t i = 0; i < moving_.size(); ++i) {
             const b2Vec2 position = moving_[i]->GetPosition();
             const b2Vec2 velocity = moving_[i]->GetLinearVelocity();

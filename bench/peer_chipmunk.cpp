@@ -42,7 +42,7 @@ class ChipmunkPeer final : public Peer {
 
     void step() override { cpSpaceStep(space_.get(), dt_); }
 
-    void read(const BodyView<double>::Moving& rows) const override {
+    void read(const MutableBodyView<double>::Moving& rows) const override {
         for (std::size_t i = 0; i < moving_.size(); ++i) {
             const cpVect position = cpBodyGetPosition(moving_[i].get());
             const cpVect velocity = cpBodyGetVelocity(moving_[i].get());

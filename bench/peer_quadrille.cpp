@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <quadrille/names.hpp>
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
@@ -24,15 +25,12 @@ World copyBodies(const World& world) {
 class QuadrillePeer final : public Peer {
   public:
     QuadrillePeer(const Scene& scene, const PartitionerConfig& partitioner, Precision precision)
-        : simulation_(copyBodies(scene.world), {.partitioner = partitioner,
-                                                .precision = precision,
-                                                .dt = scene.step.dt,
-                                                .gravity = scene.step.gravity,
-                                                .restitution = scene.step.restitution}) {}
+        : simulation_(copyBodies(scene.world),
+                      {.partitioner = partitioner, .precision = precision, .step = scene.step}) {}
 
     void step() override { simulation_.step(); }
 
-    void read(const BodyView<double>::Moving& rows) const override {
+    void read(const MutableBodyView<double>::Moving& rows) const override {
         simulation_.world().visitBodies([&](const auto& bodies) {
             std::ranges::copy(bodies.moving.x, rows.x.begin());
             std::ranges::copy(bodies.moving.y, rows.y.begin());

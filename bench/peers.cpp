@@ -125,7 +125,11 @@ class Contestant {
     }
 
   private:
-    void readState() { peer_->read(probe_.bodies<double>().moving); }
+    void readState() {
+        probe_.editBodies([&]<class Real>(const MutableBodyView<Real>& bodies) {
+            if constexpr (std::is_same_v<Real, double>) peer_->read(bodies.moving);
+        });
+    }
 
     World& probe_;
     StepSettings step_;

@@ -10,9 +10,10 @@
 
 #include <quadrille/device.hpp>
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "bench/partitioner_spec.hpp"
-#include "bench/report_figures.hpp"
+#include "bench/published_figures.hpp"
 #include "bench/scene_files.hpp"
 
 namespace quadrille::bench {
@@ -54,25 +55,30 @@ std::vector<std::string> shippedScenesWithMovingBodies(std::size_t least) {
 }  // namespace
 
 void parseResolver(std::string_view spec, Variant& variant) {
-    constexpr std::string_view counted = "threads:";
-    if (spec == "sequential") {
-        variant.resolver = ResolverKind::Sequential;
-        return;
-    }
+    const auto colon = spec.find(':');
+    const auto resolver = find(resolvers(), spec.substr(0, colon));
     variant.threads = 0;
-    if (spec == "cuda") {
-        variant.resolver = ResolverKind::Cuda;
+    if (resolver && colon == std::string_view::npos) {
+        variant.resolver = *resolver;
         return;
     }
-    variant.resolver = ResolverKind::Threads;
-    if (spec == "threads") return;
-    if (spec.starts_with(counted)) {
-        const char* const end = spec.data() + spec.size();
-        const auto read = std::from_chars(spec.data() + counted.size(), end, variant.threads);
+    if (resolver == ResolverKind::Threads) {
+        const auto count = spec.substr(colon + 1);
+        const char* const end = count.data() + count.size();
+        const auto read = std::from_chars(count.data(), end, variant.threads);
+        variant.resolver = *resolver;
         if (read.ec == std::errc() && read.ptr == end && variant.threads > 0) return;
     }
-    throw Error("resolver '" + std::string(spec) +
-                "' is none of: sequential, threads, threads:N, cuda");
+    throw Error("resolver '" + std::string(spec) + "' is none of: " + resolverSpecs());
+}
+
+std::string resolverSpecs() {
+    std::string text;
+    for (const auto& named : resolvers()) {
+        text += (text.empty() ? "" : ", ") + std::string(named.name);
+        if (named.kind == ResolverKind::Threads) text += "[:N]";
+    }
+    return text;
 }
 
 std::string resolverSpecOf(const Variant& variant) {

@@ -26,6 +26,9 @@ struct Sweep {
 /// Throws Error for anything else.
 void parseResolver(std::string_view spec, Variant& variant);
 
+/// All that parseResolver reads, for messages.
+std::string resolverSpecs();
+
 /// The spec of the resolver of a variant; parseResolver reads it back.
 std::string resolverSpecOf(const Variant& variant);
 

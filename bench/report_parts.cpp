@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "accuracy/error_meter.hpp"
 #include "bench/partitioner_spec.hpp"
@@ -42,13 +43,12 @@ int stepsFor(int frames, int rate) {
 
 accuracy::ErrorMetrics errorOf(const ReportScene& entry, Law law, Precision precision, int rate) {
     Scene scene = openScene(entry.file, entry.entities);
+    scene.step.dt = 1.0 / rate;
     const bool large = scene.world.movingCount() > 20'000;
     Simulation simulation(std::move(scene.world), {.partitioner = Quadtree{},
                                                    .law = law,
                                                    .precision = precision,
-                                                   .dt = 1.0 / rate,
-                                                   .gravity = scene.step.gravity,
-                                                   .restitution = scene.step.restitution,
+                                                   .step = scene.step,
                                                    .countMissedPairs = true,
                                                    .missedPairsEvery = large ? 10u : 1u});
     accuracy::ErrorMeter meter(simulation);
@@ -200,9 +200,7 @@ Table measurePolicies(const ReportPlan& plan) {
         for (const Measurement& m : measure(sceneRuns, {.warmup = 0, .repeats = plan.repeats})) {
             Scene fresh = openScene(scene.file, scene.entities);
             Simulation simulation(std::move(fresh.world), {.partitioner = m.variant.partitioner,
-                                                           .dt = fresh.step.dt,
-                                                           .gravity = fresh.step.gravity,
-                                                           .restitution = fresh.step.restitution,
+                                                           .step = fresh.step,
                                                            .countMissedPairs = true});
             std::uint64_t overlapping = 0, missed = 0;
             for (std::size_t i = 0; i < plan.policyFrames; ++i) {

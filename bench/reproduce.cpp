@@ -11,11 +11,12 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "accuracy/error_meter.hpp"
 #include "bench/command_line.hpp"
 #include "bench/partitioner_spec.hpp"
-#include "bench/report_figures.hpp"
+#include "bench/published_figures.hpp"
 #include "bench/scene_files.hpp"
 #include "bench/scene_runs.hpp"
 #include "bench/table.hpp"
@@ -107,9 +108,7 @@ std::optional<accuracy::ErrorMetrics> errorOf(const std::string& scene,
     const bool large = opened.world.movingCount() > 20'000;
     Simulation simulation(std::move(opened.world), {.partitioner = variant.partitioner,
                                                     .law = variant.law,
-                                                    .dt = opened.step.dt,
-                                                    .gravity = opened.step.gravity,
-                                                    .restitution = opened.step.restitution,
+                                                    .step = opened.step,
                                                     .countMissedPairs = true,
                                                     .missedPairsEvery = large ? 10u : 1u});
     try {

@@ -6,6 +6,8 @@
 
 #include <quadrille/error.hpp>
 #include <quadrille/measure.hpp>
+#include <quadrille/names.hpp>
+#include <quadrille/state_hash.hpp>
 
 #include "bench/partitioner_spec.hpp"
 #include "bench/scene_files.hpp"
@@ -37,9 +39,7 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
                                                    .precision = variant.precision,
                                                    .resolver = variant.resolver,
                                                    .threads = variant.threads,
-                                                   .dt = step.dt,
-                                                   .gravity = step.gravity,
-                                                   .restitution = step.restitution,
+                                                   .step = step,
                                                    .profile = variant.profile,
                                                    .cuda = variant.cuda});
     if (variant.listener) simulation.onContact([](const Contact&) {});
@@ -71,7 +71,7 @@ Repeat runOnce(const SceneRuns& runs, const Variant& variant, std::size_t warmup
         result.energyDrift = gain / std::abs(energyAtStart);
     }
     result.bytesPerBody = double(world.bytes() + simulation.workspaceBytes()) / bodies;
-    result.cells = load(simulation.cells());
+    result.cells = loadOf(simulation.cells());
     result.stateHash = stateHash(world);
     return {std::move(result), std::move(milliseconds)};
 }

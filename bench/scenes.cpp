@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "bench/command_line.hpp"
 #include "bench/partitioner_spec.hpp"
@@ -30,32 +31,34 @@ struct Options {
     TableFiles files;
 };
 
-/// The values of an enumeration whose names were given.
-template <class Enum>
-std::vector<Enum> named(const std::vector<std::string>& names, std::initializer_list<Enum> all) {
-    std::vector<Enum> values;
-    for (const std::string& wanted : names) {
-        values.push_back(*std::find_if(all.begin(), all.end(),
-                                       [&](Enum value) { return name(value) == wanted; }));
-    }
-    return values;
+template <class Kind>
+std::vector<std::string> namesOf(std::span<const Named<Kind>> all) {
+    std::vector<std::string> names;
+    for (const Named<Kind>& named : all) names.emplace_back(named.name);
+    return names;
+}
+
+/// What the names stand for.
+template <class Kind>
+std::vector<Kind> kindsOf(const std::vector<std::string>& names, std::span<const Named<Kind>> all) {
+    std::vector<Kind> kinds;
+    for (const std::string& wanted : names) kinds.push_back(find(all, wanted).value());
+    return kinds;
 }
 
 void addOptions(CLI::App& app, Options& options) {
     auto* scenes = app.add_option("--scenes", options.sweep.scenes, "names or files (balanced)");
     auto* entities = app.add_option("--entities", options.sweep.entities,
                                     "counts of the first spawn group (the scene's)");
-    auto* partitioners = app.add_option(
-        "--partitioners", options.sweep.partitioners,
-        "brute-force, static-grid:WxH, quadtree:DEPTH/MAX, "
-        "semi-static-quadtree:DEPTH/MAX[/skin|/skin=W|/every=K] (all but the first)");
-    auto* laws = app.add_option("--laws", options.laws, "(impulse)")
-                     ->check(CLI::IsMember({"baseline", "impulse", "continuous"}));
-    auto* precisions = app.add_option("--precisions", options.precisions, "(double)")
-                           ->check(CLI::IsMember({"double", "float"}));
-    auto* resolvers = app.add_option("--resolvers", options.resolvers,
-                                     "sequential, threads, threads:N or cuda (sequential)");
-    for (auto* list : {scenes, entities, partitioners, laws, precisions, resolvers}) {
+    auto* partitionerList = app.add_option("--partitioners", options.sweep.partitioners,
+                                           partitionerSpecs() + " (all but the first)");
+    auto* lawNames =
+        app.add_option("--laws", options.laws, "(impulse)")->check(CLI::IsMember(namesOf(laws())));
+    auto* precisionNames = app.add_option("--precisions", options.precisions, "(double)")
+                               ->check(CLI::IsMember(namesOf(precisions())));
+    auto* resolverList =
+        app.add_option("--resolvers", options.resolvers, resolverSpecs() + " (sequential)");
+    for (auto* list : {scenes, entities, partitionerList, lawNames, precisionNames, resolverList}) {
         list->delimiter(',');
     }
     app.add_option("--frames", options.frames, "timed frames per repeat (200)")
@@ -73,7 +76,7 @@ void addOptions(CLI::App& app, Options& options) {
         ->check(CLI::IsMember({"report", "targets", "threads", "resolvers"}))
         ->excludes(scenes)
         ->excludes(entities)
-        ->excludes(partitioners);
+        ->excludes(partitionerList);
 }
 
 /// The sweeps of the preset, or the one asked for, with the options that go with both.
@@ -85,10 +88,10 @@ std::vector<Sweep> sweepsOf(const Options& options) {
                                                                 : std::vector{options.sweep};
     for (Sweep& sweep : sweeps) {
         if (!options.laws.empty()) {
-            sweep.laws = named(options.laws, {Law::Baseline, Law::Impulse, Law::Continuous});
+            sweep.laws = kindsOf(options.laws, laws());
         }
         if (!options.precisions.empty()) {
-            sweep.precisions = named(options.precisions, {Precision::Double, Precision::Float});
+            sweep.precisions = kindsOf(options.precisions, precisions());
         }
         if (!options.resolvers.empty()) sweep.resolvers = options.resolvers;
         if (options.frames > 0) sweep.frames = options.frames;

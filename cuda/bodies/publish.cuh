@@ -1,5 +1,7 @@
 #pragma once
 
+#include "collision/rules/bodies.hpp"
+#include "cuda/bodies/body_kernels.hpp"
 #include "cuda/device/launch.cuh"
 
 namespace quadrille::cuda {

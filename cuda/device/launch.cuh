@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "cuda/device/check.hpp"
-#include "cuda/kernels.hpp"
+#include "cuda/device/launch.hpp"
 
 namespace quadrille::cuda {
 

@@ -5,7 +5,7 @@
 
 namespace quadrille::cuda {
 
-/// The device memory of one resolver, so that it can be limited.
+/// The device memory of one law, so that it can be limited.
 struct MemoryBudget {
     std::size_t limit = 0;  ///< bytes; 0 is no limit
     std::size_t used = 0;

@@ -10,7 +10,7 @@ namespace quadrille::cuda {
 void PackedUpload::flatten(const ThreadTeam& team) {
     host_.reserve(bytes_);
     device_.reserve(bytes_);
-    team.shares(bytes_, worthwhile::copied, [&](std::size_t begin, std::size_t end, unsigned) {
+    team.shares(bytes_, &Thresholds::copied, [&](std::size_t begin, std::size_t end, unsigned) {
         for (const Part& part : parts_) {
             const std::size_t first = std::max(begin, part.offset);
             const std::size_t last = std::min(end, part.offset + part.bytes);

@@ -43,6 +43,13 @@ class PackedUpload {
         return reinterpret_cast<T*>(device_.data() + parts_[part].offset);
     }
 
+    /// The same part in the block, where it stays until the next call of `flatten`.
+    template <class T>
+    const T* onHost(std::size_t part) const {
+        if (parts_[part].bytes == 0) return nullptr;
+        return reinterpret_cast<const T*>(host_.data() + parts_[part].offset);
+    }
+
     std::size_t hostBytes() const { return host_.bytes(); }
 
   private:

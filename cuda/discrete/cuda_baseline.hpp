@@ -1,40 +1,41 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "collision/resolver.hpp"
-#include "cuda/bodies/device_state.hpp"
+#include "cuda/discrete/baseline_kernels.hpp"
+#include "cuda/discrete/cuda_law.hpp"
 
 namespace quadrille::cuda {
 
 /// The law `baseline` on the device, bit for bit that of SequentialBaseline.
 template <class Real>
-class CudaBaseline final : public Resolver<Real> {
+class CudaBaseline final : public CudaLaw<Real> {
   public:
-    /// `team` must outlive the resolver.
-    CudaBaseline(const CudaOptions& options, const ThreadTeam& team) : state_(options, team) {}
-
-    void integrated(const BodyView<Real>& bodies, const StepParameters<Real>& step,
-                    PhaseClock& clock) override {
-        state_.beginStep(bodies, step, clock);
-    }
-    ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                          const StepParameters<Real>& step,
-                          std::vector<ContactRecord>* records) override;
-
-    std::size_t bytes() const override { return state_.bytes(); }
+    CudaBaseline(const CudaOptions& options, const ThreadTeam& team)
+        : CudaLaw<Real>(options, team) {}
 
   private:
-    void reserve();
-    void appendRecords(std::uint64_t count, const StepParameters<Real>& step,
-                       std::vector<ContactRecord>& records) const;
+    using CudaLaw<Real>::device_;
+    using CudaLaw<Real>::bodies_;
+    using CudaLaw<Real>::cells_;
 
-    DeviceState<Real> state_;
-    DeviceArray<std::uint32_t> heads_{state_.budget()}, done_{state_.budget()};
-    DeviceArray<std::uint32_t> next_{state_.budget()}, turns_{state_.budget()};
-    DeviceArray<bool> hit_{state_.budget()};
-    DeviceArray<Real> future_{state_.budget()};
-    DeviceArray<BaselineContact<Real>> contacts_{state_.budget()};
+    void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
+                 Step<Real>& step) override;
+    void fetchContacts(std::size_t count, const StepParameters<Real>& step,
+                       std::vector<ContactRecord>& records) const override;
+
+    void reserve(bool keepContacts);
+    BaselineOrder<Real> order(bool keepContacts) const;
+    StepCounts tryStep(const Partition<Real>& partition, Step<Real>& step);
+
+    DeviceArray<std::uint32_t> heads_{device_.budget()}, done_{device_.budget()};
+    DeviceArray<std::uint32_t> next_{device_.budget()}, turns_{device_.budget()};
+    std::uint64_t turnsOf_ = 0;  // generation of the partition that the turns are of
+    DeviceArray<bool> hit_{device_.budget()};
+    DeviceArray<Real> future_{device_.budget()};
+    DeviceArray<BaselineContact<Real>> contacts_{device_.budget()};
     std::uint32_t expected_ = 1024;  // contacts, judging by the last step
     bool hitsFalse_ = false;
 };

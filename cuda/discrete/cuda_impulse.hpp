@@ -1,49 +1,47 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "collision/resolver.hpp"
-#include "cuda/bodies/device_state.hpp"
+#include "cuda/discrete/cuda_law.hpp"
+#include "cuda/discrete/impulse_kernels.hpp"
 
 namespace quadrille::cuda {
 
 /// The law `impulse` on the device, bit for bit that of SequentialImpulse.
 template <class Real>
-class CudaImpulse final : public Resolver<Real> {
+class CudaImpulse final : public CudaLaw<Real> {
   public:
-    /// `team` must outlive the resolver.
-    CudaImpulse(const CudaOptions& options, const ThreadTeam& team) : state_(options, team) {}
-
-    void integrated(const BodyView<Real>& bodies, const StepParameters<Real>& step,
-                    PhaseClock& clock) override {
-        state_.beginStep(bodies, step, clock);
-    }
-    ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                          const StepParameters<Real>& step,
-                          std::vector<ContactRecord>* records) override;
-
-    std::size_t bytes() const override { return state_.bytes(); }
+    CudaImpulse(const CudaOptions& options, const ThreadTeam& team)
+        : CudaLaw<Real>(options, team) {}
 
   private:
+    using CudaLaw<Real>::device_;
+    using CudaLaw<Real>::bodies_;
+    using CudaLaw<Real>::cells_;
+
+    void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
+                 Step<Real>& step) override;
+    void fetchContacts(std::size_t count, const StepParameters<Real>& step,
+                       std::vector<ContactRecord>& records) const override;
+
     void reserveLists();
     void reserveContacts(std::uint64_t count);
-    void collect(const BodyView<Real>& bodies, const Partition<Real>& partition);
+    void collect(const LawBodies<Real>& bodies, const Partition<Real>& partition);
     void forgetSeenPairs(const Partition<Real>& partition);
-    void launchStep(const Partition<Real>& partition, const StepParameters<Real>& step);
-    void appendRecords(std::uint32_t count, const StepParameters<Real>& step,
-                       std::vector<ContactRecord>& records) const;
-    ContactList<Real> list() const;
+    StepCounts tryStep(const Partition<Real>& partition, Step<Real>& step);
 
-    DeviceState<Real> state_;
-    DeviceArray<CandidatePair> candidates_{state_.budget()};
+    DeviceArray<CandidatePair> candidates_{device_.budget()};
     std::uint32_t candidateCount_ = 0;
-    DeviceArray<PendingContact<Real>> contacts_{state_.budget()};
-    DeviceArray<std::uint32_t> nextA_{state_.budget()}, nextB_{state_.budget()};
-    DeviceArray<Successors> successors_{state_.budget()};
-    DeviceArray<std::uint32_t> waiting_{state_.budget()};
-    DeviceArray<bool> collided_{state_.budget()};
-    DeviceArray<std::uint32_t> heads_{state_.budget()};
-    DeviceArray<unsigned long long> seenSlots_{state_.budget()};
+    std::uint64_t candidatesOf_ = 0;  // generation of the partition that they come from
+    DeviceArray<PendingContact<Real>> contacts_{device_.budget()};
+    DeviceArray<std::uint32_t> nextA_{device_.budget()}, nextB_{device_.budget()};
+    DeviceArray<Successors> successors_{device_.budget()};
+    DeviceArray<std::uint32_t> waiting_{device_.budget()};
+    DeviceArray<ContactOutcome<Real>> outcomes_{device_.budget()};
+    DeviceArray<std::uint32_t> heads_{device_.budget()};
+    DeviceArray<unsigned long long> seenSlots_{device_.budget()};
     SeenPairs seen_{};
     std::uint32_t capacity_ = 0;  // contacts for which there is room
     std::uint32_t expected_ = 0;  // contacts, judging by the last step

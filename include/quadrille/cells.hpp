@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <quadrille/body_ref.hpp>
 #include <quadrille/cell_coordinates.hpp>
 #include <quadrille/vec2.hpp>
 
@@ -15,20 +16,20 @@ struct Bounds {
     Vec2 low{0, 0}, high{0, 0};
 };
 
-/// Cells in compressed sparse rows: cell c holds bodies[offsets[c] .. offsets[c + 1]), moving
-/// bodies by row and static ones after them as movingCount + row. A body stands in every cell that
-/// its box touches. Cells are half-open and those on the border reach to infinity, so each point of
+/// Cells in compressed sparse rows: cell c holds bodies[offsets[c] .. offsets[c + 1]), in ascending
+/// order: moving bodies by row, static ones after them. A body stands in every cell that its box
+/// touches. Cells are half-open and those on the border reach to infinity, so each point of
 /// the plane lies in exactly one.
 struct Cells {
     std::vector<std::uint32_t> offsets{0};
-    std::vector<std::uint32_t> bodies;
+    std::vector<BodyRef> bodies;
     std::vector<CellCoordinates> coordinates;  ///< one a cell
 
     Vec2 origin{0, 0};    ///< low corner of fine cell (0, 0), px
     Vec2 fineCell{0, 0};  ///< size of a fine cell, px
 
     std::size_t size() const { return offsets.size() - 1; }
-    std::span<const std::uint32_t> operator[](std::size_t cell) const {
+    std::span<const BodyRef> operator[](std::size_t cell) const {
         return {bodies.data() + offsets[cell], bodies.data() + offsets[cell + 1]};
     }
     /// The finite rectangle of a cell; for border cells, the part of it inside the world.
@@ -43,6 +44,6 @@ struct CellLoad {
     double meanBodies = 0;        ///< over the active cells
 };
 
-CellLoad load(const Cells& cells);
+CellLoad loadOf(const Cells& cells);
 
 }  // namespace quadrille

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include <quadrille/cuda_options.hpp>
 #include <quadrille/partitioner_config.hpp>
@@ -15,12 +14,9 @@ enum class Precision : std::uint8_t { Double, Float };
 /// What a contact does to its two bodies; docs/step.md describes each law.
 enum class Law : std::uint8_t { Baseline, Impulse, Continuous };
 
-/// Who finds and resolves the contacts.
-enum class ResolverKind : std::uint8_t { Sequential, Threads, Cuda, CudaResident };
-
-std::string_view name(Law law);
-std::string_view name(Precision precision);
-std::string_view name(ResolverKind resolver);
+/// Who finds and resolves the contacts. Auto is the fastest that there is for the world's size; the
+/// result is the same.
+enum class ResolverKind : std::uint8_t { Auto, Sequential, Threads, Cuda };
 
 /// What a scene says about its steps.
 struct StepSettings {
@@ -34,10 +30,9 @@ struct SimulationConfig {
     Law law = Law::Impulse;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
-    int threads = 0;                ///< of Threads, and of Cuda on the host; 0: one for each core
-    double dt = 1.0 / 60;           ///< s
-    Vec2 gravity{0, 0};             ///< px/s^2
-    double restitution = 1;         ///< in [0, 1]
+    int threads = 0;  ///< of Threads, and of Cuda on the host; 0: one for each core
+    StepSettings step{};
+    bool keepContacts = false;      ///< for Simulation::contacts; listeners have them in any case
     bool profile = false;           ///< measure the phases of each step
     bool countMissedPairs = false;  ///< compare the broad phase with a complete one in each step
     /// With countMissedPairs: in the first step, and in about one of so many.

@@ -1,17 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include <quadrille/vec2.hpp>
 #include <quadrille/world.hpp>
 
 namespace quadrille {
-
-/// 64 bits over the bits of position and velocity of all moving bodies in order of creation; -0
-/// counts as 0. Word k of the state is mixed with its position k, and the results are added, so
-/// that parts may be hashed in any order.
-std::uint64_t stateHash(const World& world);
 
 /// Sum of m v^2 / 2 over the moving bodies.
 double kineticEnergy(const World& world);

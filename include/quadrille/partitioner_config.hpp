@@ -41,7 +41,4 @@ struct SemiStaticQuadtree {
 
 using PartitionerConfig = std::variant<BruteForce, StaticGrid, Quadtree, SemiStaticQuadtree>;
 
-/// The name on the command line: "brute-force", "static-grid", "quadtree", "semi-static-quadtree".
-std::string name(const PartitionerConfig& config);
-
 }  // namespace quadrille

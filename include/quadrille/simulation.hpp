@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <quadrille/cells.hpp>
 #include <quadrille/config.hpp>
@@ -25,11 +27,30 @@ struct ModelFeatures {
     bool profile = false;       ///< phases are timed
 };
 
+/// What was registered with a Simulation; lets it be taken out again. May be thrown away: what was
+/// registered then stays for good.
+class Subscription {
+  public:
+    Subscription() = default;
+    explicit Subscription(std::shared_ptr<bool> active) : active_(std::move(active)) {}
+
+    /// No more calls from here on, even if made inside a call. Does nothing the second time.
+    void remove() {
+        if (active_) *active_ = false;
+    }
+    bool active() const { return active_ && *active_; }
+
+  private:
+    std::shared_ptr<bool> active_;
+};
+
+struct Snapshot;
+
 /// Advances a world in steps of equal length.
 ///
 /// The result of a step depends on the world, law, precision, dt, gravity and restitution; never on
-/// the partitioner (BruteForce and SemiStaticQuadtree::EveryFrames apart, which is allowed to miss
-/// pairs), the clock or the number of steps asked for at once.
+/// the partitioner (SemiStaticQuadtree::EveryFrames apart, which is allowed to miss pairs), the
+/// resolver, the clock or the number of steps asked for at once.
 class Simulation {
   public:
     /// Throws Error for impossible values, NotAvailable for combinations that this version cannot
@@ -38,6 +59,8 @@ class Simulation {
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
+    Simulation(const Simulation&) = delete;  ///< to go back or branch off, see `snapshot`
+    Simulation& operator=(const Simulation&) = delete;
 
     /// One step. Throws Error if a position stops being finite and, without
     /// SimulationConfig::fallback, DeviceError if a device fails.
@@ -46,7 +69,8 @@ class Simulation {
 
     World& world();
     const World& world() const;
-    /// What runs now: after a fallback, with the resolver `sequential`.
+    /// What runs now: with the resolver that Auto stands for, and after a fallback with
+    /// `sequential`.
     const SimulationConfig& config() const;
     /// Why another resolver was replaced by `sequential`; empty if none was.
     const std::string& resolverFailure() const;
@@ -54,12 +78,22 @@ class Simulation {
     std::uint64_t stepsDone() const;
     double time() const;  ///< s, stepsDone * dt
 
+    // ---- what happened in the last step
+
+    /// Its contacts in canonical order; kept if SimulationConfig::keepContacts says so or a contact
+    /// listener is registered, and valid until the next step. Throws Error if they are not kept.
+    std::span<const Contact> contacts() const;
+    /// Its cells; empty before the first.
+    const Cells& cells() const;
+
     /// Called in canonical order for every contact, after all of a step's contacts are resolved.
-    void onContact(std::function<void(const Contact&)> listener);
+    Subscription onContact(std::function<void(const Contact&)> listener);
     /// Called after every step.
-    void onStep(std::function<void(const World&, const StepReport&)> observer);
+    Subscription onStep(std::function<void(const World&, const StepReport&)> observer);
     /// Called before every step, in the order in which they were added.
-    void addSystem(std::function<void(World&, double dt)> system);
+    Subscription addSystem(std::function<void(World&, double dt)> system);
+
+    // ---- other ways to go on
 
     /// Takes effect with the next step; the state stays as it is.
     void setPartitioner(const PartitionerConfig& partitioner);
@@ -69,8 +103,16 @@ class Simulation {
     /// time and the state are kept in them; then nothing changes.
     void reconfigure(const SimulationConfig& config);
 
-    /// The cells of the last step; empty before the first.
-    const Cells& cells() const;
+    /// The state with everything that decides how the run goes on: world, law, step settings and
+    /// the number of steps done. A copy, so that this one may go on.
+    Snapshot snapshot() const;
+
+    /// Goes on from there, bit for bit as the run did that the snapshot is of, with the
+    /// partitioner, resolver and listeners of this simulation. Throws NotAvailable if they cannot
+    /// run its law; then nothing changes.
+    void restore(const Snapshot& snapshot);
+
+    // ---- about the run
 
     /// Threads that a step may use.
     int threads() const;

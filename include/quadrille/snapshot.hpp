@@ -25,11 +25,12 @@ struct Snapshot {
 void saveSnapshot(const std::filesystem::path& file, const Simulation& simulation,
                   const std::string& scene, std::uint64_t seed);
 
-/// Reads a snapshot. Throws SnapshotError if it is damaged or not a snapshot of this version.
+/// Reads a snapshot. Throws SnapshotError if it is damaged, not a snapshot of this version, or
+/// holds a world or step settings that cannot be.
 ///
-/// A run that goes on from it gives the same bits as one that was never interrupted, with law
-/// `impulse` and any complete partitioner. `baseline` and the policy EveryFrames also depend on the
-/// age of the tree, which starts anew.
+/// A run that goes on from it gives the same bits as one that was never interrupted, with any
+/// complete partitioner and the laws `impulse` and `continuous`. `baseline` and the policy
+/// EveryFrames also depend on the age of the tree, which starts anew.
 Snapshot loadSnapshot(const std::filesystem::path& file);
 
 }  // namespace quadrille

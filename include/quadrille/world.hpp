@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
+#include <quadrille/body_ref.hpp>
 #include <quadrille/components.hpp>
 #include <quadrille/config.hpp>
 #include <quadrille/detail/pool.hpp>
@@ -35,19 +36,36 @@ struct WallsConfig {
     double inset = 0;        ///< how far the walls reach into the world, px
 };
 
+class BodyStore;
+
 /// The components whose values live in the body columns once an entity has all three of them.
 template <class C>
 concept BodyComponent =
     std::same_as<C, Transform> || std::same_as<C, BoxCollider> || std::same_as<C, PhysicsBody>;
 
 /// Entities and their components. An entity with a Transform, a BoxCollider and a PhysicsBody is a
-/// body; bodies lie in columns, in order of creation. Components of any other movable type live in
-/// pools.
+/// body; bodies lie in columns. Components of any other movable type live in pools.
 ///
-/// Body components are read and written by value (`get`, `set`), others by reference.
+/// Body components are read and written by value (`get`, `set`), others by reference. A const World
+/// hands out nothing that can be written.
 class World {
   public:
     explicit World(WorldConfig config = {});
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+    World(const World&) = delete;  ///< a copy is dear and has a name: `clone`
+    World& operator=(const World&) = delete;
+
+    /// A world that goes on from here on its own: entities, components, bodies, random numbers.
+    /// Throws Error if a component of the user's own type cannot be copied.
+    World clone() const;
+
+    /// What is wrong with the world, one sentence each; empty if it is sound. A world that was made
+    /// through this interface is; what was read from a file, or written through `editBodies`, may
+    /// not be: values that are not finite, sizes and masses that are not positive, rows and
+    /// entities that do not belong together.
+    std::vector<std::string> validate() const;
 
     const WorldConfig& config() const { return config_; }
     Random& random() { return random_; }
@@ -130,8 +148,9 @@ class World {
         return pool != nullptr && pool->contains(entity.index);
     }
 
-    /// The component: by value for body components, else by reference, which is valid until a
-    /// component of that type is added or removed. Throws Error if the entity has none.
+    /// The component: a const value for body components, which are written by `set`, else a
+    /// reference, which is valid until a component of that type is added or removed. Throws Error
+    /// if the entity has none.
     template <class C>
     decltype(auto) get(Entity entity) {
         return getFrom<C>(*this, entity);
@@ -145,11 +164,87 @@ class World {
     /// first. `function` may destroy any entity and may remove components of the one it is given.
     template <class... Cs, class Function>
     void each(Function&& function) {
+        eachOf<Cs...>(*this, function);
+    }
+    template <class... Cs, class Function>
+    void each(Function&& function) const {
+        eachOf<Cs...>(*this, function);
+    }
+
+    // ---- bodies
+
+    /// Four static boxes that reach `inset` into the world, in the order left, right, bottom, top.
+    std::array<Entity, 4> addWalls(WallsConfig walls = {});
+
+    bool isBody(Entity entity) const {
+        return entity.index < slots_.size() && slots_[entity.index] != BodyRef{} &&
+               generations_[entity.index] == entity.generation;
+    }
+    std::size_t movingCount() const;
+    std::size_t staticCount() const;
+
+    Precision precision() const;
+
+    /// Converts all body columns; narrowing rounds to nearest. Throws Error if a value does not
+    /// fit.
+    void setPrecision(Precision precision);
+
+    /// The bodies' columns, to be read. Throws Error if the world has the other precision.
+    template <class Real>
+    BodyView<Real> bodies() const;
+
+    /// Calls `function(BodyView<Real>)` with the world's precision.
+    template <class Function>
+    decltype(auto) visitBodies(Function&& function) const {
+        return precision() == Precision::Double ? function(bodies<double>())
+                                                : function(bodies<float>());
+    }
+
+    /// Calls `function(MutableBodyView<Real>)` with the world's precision: positions and velocities
+    /// of many bodies are written at once this way.
+    template <class Function>
+    decltype(auto) editBodies(Function&& function) {
+        struct Counted {
+            World& world;
+            ~Counted() { world.countEdit(); }
+        } const counted{*this};
+        return precision() == Precision::Double ? function(mutableBodies<double>())
+                                                : function(mutableBodies<float>());
+    }
+
+    void reserveBodies(std::size_t moving);
+
+    /// Bytes allocated for entities and bodies (pools of other components not counted).
+    std::size_t bytes() const;
+
+  private:
+    friend class WorldAccess;
+
+    template <class C>
+    Pool<C>* findPool() {
+        for (const auto& [key, pool] : pools_) {
+            if (key == typeid(C)) return static_cast<Pool<C>*>(pool.get());
+        }
+        return nullptr;
+    }
+    template <class C>
+    const Pool<C>* findPool() const {
+        return const_cast<World*>(this)->findPool<C>();
+    }
+    template <class C>
+    Pool<C>& pool() {
+        if (auto* found = findPool<C>()) return *found;
+        pools_.emplace_back(typeid(C), std::make_unique<Pool<C>>());
+        return static_cast<Pool<C>&>(*pools_.back().second);
+    }
+
+    template <class... Cs, class Self, class Function>
+    static void eachOf(Self& self, Function& function) {
         const PoolBase* driver = nullptr;
         bool pools = true;
         auto consider = [&]<class C>() {
             if constexpr (!BodyComponent<C>) {
-                const PoolBase* pool = findPool<C>();
+                const PoolBase* pool = self.template findPool<C>();
                 if (pool == nullptr) {
                     pools = false;
                 } else if (driver == nullptr || pool->size() < driver->size()) {
@@ -159,79 +254,15 @@ class World {
         };
         (consider.template operator()<Cs>(), ...);
         if (!pools) return;
-        const std::size_t count = driver != nullptr ? driver->size() : generations_.size();
+        const std::size_t count = driver != nullptr ? driver->size() : self.generations_.size();
         for (std::size_t i = count; i-- > 0;) {
             if (driver != nullptr && i >= driver->size()) continue;
             const Entity entity =
-                driver != nullptr ? driver->entities()[i] : at(static_cast<std::uint32_t>(i));
-            if ((has<Cs>(entity) && ...)) function(entity, get<Cs>(entity)...);
+                driver != nullptr ? driver->entities()[i] : self.at(static_cast<std::uint32_t>(i));
+            if ((self.template has<Cs>(entity) && ...)) {
+                function(entity, getFrom<Cs>(self, entity)...);
+            }
         }
-    }
-
-    // ---- bodies
-
-    /// Four static boxes that reach `inset` into the world, in the order left, right, bottom, top.
-    std::array<Entity, 4> addWalls(WallsConfig walls = {});
-
-    bool isBody(Entity entity) const {
-        return entity.index < slots_.size() && slots_[entity.index] != Entity::none &&
-               generations_[entity.index] == entity.generation;
-    }
-    std::size_t movingCount() const;
-    std::size_t staticCount() const;
-
-    Precision precision() const { return static_cast<Precision>(columns_.index()); }
-
-    /// Converts all body columns; narrowing rounds to nearest. Throws Error if a value does not
-    /// fit.
-    void setPrecision(Precision precision);
-
-    /// Throws Error if the world has the other precision.
-    template <class Real>
-    BodyView<Real> bodies();
-
-    /// To be called after writing through a view of the bodies.
-    void bodiesEdited() { ++revision_; }
-
-    /// Calls `function(BodyView<Real>)` with the world's precision.
-    template <class Function>
-    decltype(auto) visitBodies(Function&& function) {
-        return precision() == Precision::Double ? function(bodies<double>())
-                                                : function(bodies<float>());
-    }
-    template <class Function>
-    decltype(auto) visitBodies(Function&& function) const {
-        return const_cast<World*>(this)->visitBodies(std::forward<Function>(function));
-    }
-
-    void reserveBodies(std::size_t moving);
-
-    /// Bytes allocated for entities and bodies (pools of other components not counted).
-    std::size_t bytes() const;
-
-  private:
-    friend class SnapshotAccess;
-
-    template <class Real>
-    struct Columns {
-        MovingBodies<Real> moving;
-        StaticBodies<Real> fixed;
-    };
-
-    static constexpr std::uint32_t staticBit = 0x8000'0000u;
-
-    template <class C>
-    Pool<C>* findPool() const {
-        for (const auto& [key, pool] : pools_) {
-            if (key == typeid(C)) return static_cast<Pool<C>*>(pool.get());
-        }
-        return nullptr;
-    }
-    template <class C>
-    Pool<C>& pool() {
-        if (auto* found = findPool<C>()) return *found;
-        pools_.emplace_back(typeid(C), std::make_unique<Pool<C>>());
-        return static_cast<Pool<C>&>(*pools_.back().second);
     }
 
     template <class C>
@@ -267,7 +298,7 @@ class World {
 
     template <class C, class Self>
     static auto getFrom(Self& self, Entity entity)
-        -> std::conditional_t<BodyComponent<C>, C,
+        -> std::conditional_t<BodyComponent<C>, const C,
                               std::conditional_t<std::is_const_v<Self>, const C&, C&>> {
         self.requireAlive(entity);
         if constexpr (BodyComponent<C>) {
@@ -290,8 +321,9 @@ class World {
     /// Moves the row's values back to the pools and takes the row out.
     void dissolveBody(Entity entity);
     void appendBody(Entity entity, const Transform&, const BoxCollider&, const PhysicsBody&);
-    /// Takes out the rows whose entity satisfies `gone`, keeping the order of the rest.
-    void eraseBodies(const std::function<bool(std::uint32_t entity)>& gone);
+    /// Takes out the rows of one entity, or of all that are dead.
+    void eraseBody(Entity entity);
+    void eraseDeadBodies();
 
     void readBody(Entity entity, Transform& out) const;
     void readBody(Entity entity, BoxCollider& out) const;
@@ -300,18 +332,24 @@ class World {
     void writeBody(Entity entity, const BoxCollider& in);
     void writeBody(Entity entity, const PhysicsBody& in);
 
+    template <class Real>
+    MutableBodyView<Real> mutableBodies();
+    void countEdit();
+    /// Throws Error if the world was moved from.
+    BodyStore& store();
+    const BodyStore& store() const;
+
     WorldConfig config_;
     Random random_;
 
     std::vector<std::uint32_t> generations_;  // by entity index
     std::vector<bool> dead_;                  // destroyed or free
-    std::vector<std::uint32_t> slots_;        // row in the columns, with staticBit, or none
+    std::vector<BodyRef> slots_;              // place in the columns, or none
     std::vector<std::uint32_t> free_;
     std::vector<Entity> condemned_;  // destroyed since the last flush
     std::size_t alive_ = 0;
 
-    std::variant<Columns<double>, Columns<float>> columns_;
-    std::uint64_t revision_ = 0;
+    std::unique_ptr<BodyStore> store_;
     std::vector<std::pair<std::type_index, std::unique_ptr<PoolBase>>> pools_;
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <quadrille/creation_ranks.hpp>
 #include <quadrille/error.hpp>
 #include <quadrille/measure.hpp>
 
@@ -30,12 +31,16 @@ std::vector<Box> boxesOf(const World& world) {
         const auto& m = bodies.moving;
         const auto& f = bodies.fixed;
         boxes.reserve(bodies.size());
-        for (std::size_t k = 0; k < f.size(); ++k) {
+        const CreationRanks ranksOfStatic(f.created, f.size());
+        for (std::size_t place = 0; place < f.size(); ++place) {
+            const std::size_t k = ranksOfStatic.rowAt(place);
             boxes.push_back({.position = Vec2(f.x[k], f.y[k]),
                              .size = 2 * Vec2(f.halfWidth[k], f.halfHeight[k]),
                              .isStatic = true});
         }
-        for (std::size_t i = 0; i < m.size(); ++i) {
+        const CreationRanks ranks(m.created, m.size());
+        for (std::size_t place = 0; place < m.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
             boxes.push_back({.position = Vec2(m.x[i], m.y[i]),
                              .velocity = Vec2(m.vx[i], m.vy[i]),
                              .size = 2 * Vec2(m.halfWidth[i], m.halfHeight[i]),
@@ -66,7 +71,9 @@ std::vector<BodyState> statesOf(const World& world) {
     world.visitBodies([&](const auto& bodies) {
         const auto& m = bodies.moving;
         states.reserve(m.size());
-        for (std::size_t i = 0; i < m.size(); ++i) {
+        const CreationRanks ranks(m.created, m.size());
+        for (std::size_t place = 0; place < m.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
             states.push_back({Vec2(m.x[i], m.y[i]), Vec2(m.vx[i], m.vy[i])});
         }
     });
@@ -111,11 +118,12 @@ struct ErrorMeter::Impl {
         : simulation(s),
           boxes(boxesOf(s.world())),
           oracle(inReference(
-              [&] { return Oracle(boxes, s.config().gravity, s.config().restitution); })),
+              [&] { return Oracle(boxes, s.config().step.gravity, s.config().step.restitution); })),
           begin(s.time()),
           start(statesOf(s.world())),
           length(meanSide(boxes)) {
-        const bool elastic = s.config().restitution == 1 && s.config().gravity == Vec2(0, 0);
+        const bool elastic =
+            s.config().step.restitution == 1 && s.config().step.gravity == Vec2(0, 0);
         exchanged = elastic && !s.features().massesDiffer;
         if (elastic) balance.emplace(s.world());
     }
@@ -142,7 +150,7 @@ struct ErrorMeter::Impl {
 ErrorMeter::ErrorMeter(Simulation& simulation) : impl_(std::make_unique<Impl>(simulation)) {
     simulation.onContact([impl = impl_.get()](const Contact& contact) {
         if (!contact.collided) return;
-        impl->measured.push_back({contact.time - impl->begin, contact.rowA, contact.rowB,
+        impl->measured.push_back({contact.time - impl->begin, contact.numberA, contact.numberB,
                                   static_cast<int>(contact.axis)});
         if (impl->balance) impl->balance->collide(contact);
     });
@@ -154,7 +162,7 @@ ErrorMeter::~ErrorMeter() = default;
 
 void ErrorMeter::Impl::observe(const StepReport& report) {
     const World& world = simulation.world();
-    if (balance) balance->finishStep(world, simulation.config().dt);
+    if (balance) balance->finishStep(world, simulation.config().step.dt);
     overlapsKnown = report.audited;
     if (!report.audited) return;
     ++auditedSteps;
@@ -182,7 +190,7 @@ Energy ErrorMeter::Impl::energyOf(const std::vector<BodyState>& states) const {
         const double mass = boxes[fixed + i].mass;
         const double kinetic = mass * states[i].velocity.squaredNorm() / 2;
         energy.kinetic += kinetic;
-        energy.total += kinetic - mass * simulation.config().gravity.dot(states[i].position);
+        energy.total += kinetic - mass * simulation.config().step.gravity.dot(states[i].position);
     }
     return energy;
 }
@@ -215,7 +223,7 @@ ErrorMetrics ErrorMeter::metrics() const {
     if (!m.overlapsKnown) overlaps.add(m.simulation.world());
     ErrorMetrics result{
         .horizon = m.oracle.time(),
-        .events = matchEvents(m.oracle.events(), m.measured, 2 * m.simulation.config().dt),
+        .events = matchEvents(m.oracle.events(), m.measured, 2 * m.simulation.config().step.dt),
         .bodies = exact.size(),
         .wrongBodies = wrongBodies(exact, measured, tolerance),
         .velocityTolerance = tolerance,

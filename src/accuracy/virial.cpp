@@ -1,16 +1,22 @@
 #include "accuracy/virial.hpp"
 
+#include <quadrille/creation_ranks.hpp>
+
 namespace quadrille::accuracy {
 
 VirialBalance::VirialBalance(const World& world) {
     world.visitBodies([&](const auto& bodies) {
         const auto& m = bodies.moving;
         const auto& f = bodies.fixed;
-        for (std::size_t i = 0; i < m.size(); ++i) {
+        const CreationRanks ranks(m.created, m.size());
+        for (std::size_t place = 0; place < m.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
             moving_.push_back({.half = Vec2(m.halfWidth[i], m.halfHeight[i]),
                                .mass = static_cast<double>(m.mass[i])});
         }
-        for (std::size_t k = 0; k < f.size(); ++k) {
+        const CreationRanks ranksOfStatic(f.created, f.size());
+        for (std::size_t place = 0; place < f.size(); ++place) {
+            const std::size_t k = ranksOfStatic.rowAt(place);
             fixed_.push_back(
                 {.half = Vec2(f.halfWidth[k], f.halfHeight[k]), .position = Vec2(f.x[k], f.y[k])});
         }
@@ -25,24 +31,27 @@ void VirialBalance::read(const World& world) {
     twiceKinetic_ = Vec2(0, 0);
     world.visitBodies([&](const auto& bodies) {
         const auto& m = bodies.moving;
-        for (std::size_t i = 0; i < moving_.size(); ++i) {
+        const CreationRanks ranks(m.created, m.size());
+        for (std::size_t place = 0; place < moving_.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
             const Vec2 v(m.vx[i], m.vy[i]);
-            velocities_[i] = v;
-            virialNow_ += moving_[i].mass * Vec2(m.x[i], m.y[i]).cwiseProduct(v);
-            twiceKinetic_ += moving_[i].mass * v.cwiseProduct(v);
+            const double mass = moving_[place].mass;
+            velocities_[place] = v;
+            virialNow_ += mass * Vec2(m.x[i], m.y[i]).cwiseProduct(v);
+            twiceKinetic_ += mass * v.cwiseProduct(v);
         }
     });
 }
 
 void VirialBalance::collide(const Contact& contact) {
     if (!contact.collided) return;
-    const auto a = static_cast<std::size_t>(contact.rowA);
+    const auto a = static_cast<std::size_t>(contact.numberA);
     for (int k = 0; k < 2; ++k) {
         const double sense = contact.normal[k];
         if (sense == 0) continue;
         double& va = velocities_[a][k];
-        if (contact.rowB < 0) {
-            const Body& wall = fixed_[static_cast<std::size_t>(-1 - contact.rowB)];
+        if (contact.numberB < 0) {
+            const Body& wall = fixed_[static_cast<std::size_t>(-1 - contact.numberB)];
             const double approach = sense * va;
             if (!(approach > 0)) continue;
             const double impulse = 2 * moving_[a].mass * approach;
@@ -50,7 +59,7 @@ void VirialBalance::collide(const Contact& contact) {
             impulses_[k] += impulse * (reach - sense * wall.position[k]);
             va = -va;
         } else {
-            const auto b = static_cast<std::size_t>(contact.rowB);
+            const auto b = static_cast<std::size_t>(contact.numberB);
             double& vb = velocities_[b][k];
             const double approach = sense * (va - vb);
             if (!(approach > 0)) continue;

@@ -5,6 +5,8 @@
 #include <ostream>
 #include <string>
 
+#include <quadrille/names.hpp>
+
 #include "app/scene_catalog.hpp"
 
 namespace quadrille::app {
@@ -29,9 +31,15 @@ void explain(std::ostream& out, const Run& run, bool window) {
     const auto column = [&](std::size_t count) {
         return std::to_string(count * real) + " bytes a body";
     };
+    std::string elsewhere;
+    for (const auto& resolver : resolvers()) {
+        const bool runs = resolver.kind != ResolverKind::Auto && runsOn(config.law, resolver.kind);
+        if (runs) elsewhere += (elsewhere.empty() ? "" : ", ") + std::string(resolver.name);
+    }
     out << "scene " << run.scene << ": " << world.movingCount() << " moving and "
         << world.staticCount() << " static bodies, law " << name(config.law) << ", "
-        << name(config.precision) << ", " << name(config.partitioner) << "\n";
+        << name(config.precision) << ", " << name(config.partitioner) << ", resolver "
+        << name(config.resolver) << " (the law runs on " << elsewhere << ")\n";
     row(out, f.movingBodies, "position and velocity", column(4));
     row(out, f.sizesDiffer, "sizes of their own", f.sizesDiffer ? column(2) : "one size for all");
     row(out, f.massesDiffer, "masses of their own",
@@ -62,10 +70,15 @@ void explain(std::ostream& out, const Run& run, bool window) {
 void list(std::ostream& out) {
     out << "scenes:";
     for (const std::string& scene : sceneNames()) out << ' ' << scene;
-    out << "\npartitioners: brute-force static-grid quadtree semi-static-quadtree"
-        << "\nresolvers: sequential threads cuda"
-        << "\nlaws: baseline impulse continuous"
-        << "\nprecisions: double float\n";
+    const auto names = [&](const char* what, const auto& all) {
+        out << '\n' << what << ':';
+        for (const auto& named : all) out << ' ' << named.name;
+    };
+    names("partitioners", partitioners());
+    names("resolvers", resolvers());
+    names("laws", laws());
+    names("precisions", precisions());
+    out << '\n';
 }
 
 }  // namespace quadrille::app

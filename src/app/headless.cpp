@@ -38,8 +38,8 @@ class PeriodicReport {
         const std::uint64_t frames = total.frames() - frames_;
         if (frames == 0) return;
         const double ms = (total.totalMilliseconds() - milliseconds_) / double(frames);
-        const CellLoad cells = load(simulation_.cells());
-        const double energy = totalEnergy(simulation_.world(), simulation_.config().gravity);
+        const CellLoad cells = loadOf(simulation_.cells());
+        const double energy = totalEnergy(simulation_.world(), simulation_.config().step.gravity);
         std::array<char, 320> line{};
         std::snprintf(line.data(), line.size(),
                       "entities %zu  frames %llu  ms/frame %.4f  frames/s %.1f  cells %zu  "
@@ -98,7 +98,7 @@ void runHeadless(Run run, const Options& options) {
         const auto now = Clock::now();
         if (!deviceFailed && !simulation.resolverFailure().empty()) {
             progress.wipe();
-            warnOfFallback(simulation);
+            warnOfFallback(session.run());
             deviceFailed = true;
         }
         if (secondsBetween(lastProgress, now) >= 0.2) {

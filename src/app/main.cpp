@@ -59,8 +59,6 @@ int main(int argc, char** argv) {
         return app::fail(error.what(), app::usageError);
     } catch (const NotAvailable& error) {
         return app::fail(error.what(), app::usageError);
-    } catch (const app::NoDevice& error) {
-        return app::fail(error.what(), app::noDevice);
     } catch (const DeviceError& error) {
         return app::fail(error.what(), app::noDevice);
     } catch (const SceneError& error) {

@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
-#include <map>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include <quadrille/names.hpp>
 #include <quadrille/version.hpp>
 
 #include "app/exit_code.hpp"
@@ -19,12 +21,13 @@ namespace {
 
 /// The options as they were typed, where that is not yet what the program needs.
 struct RawOptions {
-    std::string partitioner = "semi-static-quadtree";
+    std::string partitioner{name(PartitionerConfig(SemiStaticQuadtree{}))};
     std::string cellSize = "26,26";
     int maxDepth = 10;
     int maxPerCell = 20;
     std::string rebuild = "skin";
     std::string law, precision;
+    std::string resolver{name(ResolverKind::Auto)};
     std::string cudaThread = "body";
 };
 
@@ -110,16 +113,44 @@ PartitionerConfig makePartitionerConfig(const RawOptions& raw) {
     // Wrong values are refused whether or not the partitioner that was chosen has use for them.
     const Vec2 cellSize = parseCellSize(raw.cellSize);
     const auto rebuild = parseRebuild(raw.rebuild);
-    if (raw.partitioner == "brute-force") return BruteForce{};
-    if (raw.partitioner == "static-grid") return StaticGrid{cellSize};
-    if (raw.partitioner == "quadtree") return Quadtree{raw.maxDepth, raw.maxPerCell};
-    return SemiStaticQuadtree{raw.maxDepth, raw.maxPerCell, rebuild};
+    PartitionerConfig config = find(partitioners(), raw.partitioner).value();
+    if (auto* grid = std::get_if<StaticGrid>(&config)) *grid = {cellSize};
+    if (auto* tree = std::get_if<Quadtree>(&config)) *tree = {raw.maxDepth, raw.maxPerCell};
+    if (auto* tree = std::get_if<SemiStaticQuadtree>(&config)) {
+        *tree = {raw.maxDepth, raw.maxPerCell, rebuild};
+    }
+    return config;
 }
 
-const std::map<std::string, Law> laws = {
-    {"baseline", Law::Baseline}, {"impulse", Law::Impulse}, {"continuous", Law::Continuous}};
-const std::map<std::string, Precision> precisions = {{"double", Precision::Double},
-                                                     {"float", Precision::Float}};
+/// The names of all that there are.
+template <class Kind>
+std::vector<std::string> namesOf(std::span<const Named<Kind>> all) {
+    std::vector<std::string> names;
+    for (const Named<Kind>& named : all) names.emplace_back(named.name);
+    return names;
+}
+
+/// "a, b or c".
+template <class Kind>
+std::string alternatives(std::span<const Named<Kind>> all) {
+    std::string text;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i > 0) text += i + 1 < all.size() ? ", " : " or ";
+        text += all[i].name;
+    }
+    return text;
+}
+
+/// Each with what it is good for.
+template <class Kind>
+std::string alternativesWithMeaning(std::span<const Named<Kind>> all) {
+    std::string text;
+    for (const Named<Kind>& named : all) {
+        text +=
+            (text.empty() ? "" : "; ") + std::string(named.name) + ": " + std::string(named.about);
+    }
+    return text;
+}
 
 void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.set_version_flag("--version",
@@ -155,9 +186,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("E")
         ->group("Scene");
 
-    app.add_option("--partitioner", raw.partitioner,
-                   "brute-force, static-grid, quadtree or semi-static-quadtree")
-        ->check(CLI::IsMember({"brute-force", "static-grid", "quadtree", "semi-static-quadtree"}))
+    app.add_option("--partitioner", raw.partitioner, alternatives(partitioners()))
+        ->check(CLI::IsMember(namesOf(partitioners())))
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
@@ -181,16 +211,13 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("POLICY")
         ->capture_default_str()
         ->group("Collisions");
-    app.add_option(
-           "--resolver", options.resolver,
-           "auto (cuda or threads for many bodies, where there is a device or more than one "
-           "core), sequential, threads, cuda or cuda-resident")
-        ->check(CLI::IsMember({"auto", "sequential", "threads", "cuda", "cuda-resident"}))
+    app.add_option("--resolver", raw.resolver, alternativesWithMeaning(resolvers()))
+        ->check(CLI::IsMember(namesOf(resolvers())))
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
     app.add_option("--threads", options.threads,
-                   "Threads of the resolver 'threads', and of 'cuda' on the host (all cores)")
+                   "Threads of the host, unless one core is to do it (all cores)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N")
         ->group("Collisions");
@@ -210,12 +237,15 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_flag("!--no-fallback", options.fallback,
                  "A resolver that cannot run is an error, not a reason to run the sequential one")
         ->group("Collisions");
-    app.add_option("--law", raw.law, "baseline, impulse or continuous (impulse)")
-        ->check(CLI::IsMember(laws))
+    app.add_option("--law", raw.law,
+                   alternatives(laws()) + " (" + std::string(name(SimulationConfig{}.law)) + ")")
+        ->check(CLI::IsMember(namesOf(laws())))
         ->type_name("NAME")
         ->group("Collisions");
-    app.add_option("--precision", raw.precision, "double or float (double)")
-        ->check(CLI::IsMember(precisions))
+    app.add_option("--precision", raw.precision,
+                   alternatives(precisions()) + " (" +
+                       std::string(name(SimulationConfig{}.precision)) + ")")
+        ->check(CLI::IsMember(namesOf(precisions())))
         ->type_name("NAME")
         ->group("Collisions");
 
@@ -292,8 +322,9 @@ void refuseSharedOutputs(const Options& options) {
 /// Turns what was typed into what the program needs, and refuses what it cannot do.
 void interpret(Options& options, const RawOptions& raw) {
     options.partitioner = makePartitionerConfig(raw);
-    if (!raw.law.empty()) options.law = laws.at(raw.law);
-    if (!raw.precision.empty()) options.precision = precisions.at(raw.precision);
+    options.resolver = find(resolvers(), raw.resolver).value();
+    options.law = find(laws(), raw.law);
+    options.precision = find(precisions(), raw.precision);
     options.cuda.threadPer = raw.cudaThread == "cell" ? CudaThread::Cell : CudaThread::Body;
     if (options.error && options.frames == 0) {
         throw UsageError("--error: there is nothing to compare after --frames 0");

@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <quadrille/partitioner_config.hpp>
-#include <quadrille/simulation.hpp>
+#include <quadrille/config.hpp>
 
 #include "app/window_options.hpp"
 
@@ -25,7 +24,7 @@ struct Options {
     std::optional<std::uint64_t> seed;
 
     PartitionerConfig partitioner;
-    std::string resolver = "auto";
+    ResolverKind resolver = ResolverKind::Auto;
     std::optional<int> threads;
     bool fallback = true;
     CudaOptions cuda;

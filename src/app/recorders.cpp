@@ -16,13 +16,15 @@ void FrameRecorder::record(const Simulation& simulation, const StepReport& repor
 }
 
 EventRecorder::EventRecorder(const std::string& file) : out_(file) {
-    out_.stream() << "t,i,j,axis\n";
+    out_.stream() << "t,i,j,axis,impulse_x,impulse_y,approach_x,approach_y\n";
 }
 
 void EventRecorder::record(const Contact& contact) {
     if (!contact.collided) return;
-    out_.stream() << exact(contact.time) << ',' << contact.rowA << ',' << contact.rowB << ','
-                  << int(contact.axis) << '\n';
+    out_.stream() << exact(contact.time) << ',' << contact.numberA << ',' << contact.numberB << ','
+                  << int(contact.axis) << ',' << exact(contact.impulse.x()) << ','
+                  << exact(contact.impulse.y()) << ',' << exact(contact.approach.x()) << ','
+                  << exact(contact.approach.y()) << '\n';
 }
 
 void writeState(OutputFile& out, const World& world) {
@@ -30,8 +32,10 @@ void writeState(OutputFile& out, const World& world) {
     stream << "entity,x,y,vx,vy\n";
     world.visitBodies([&](const auto& bodies) {
         const auto& m = bodies.moving;
-        for (std::size_t i = 0; i < m.size(); ++i) {
-            stream << i << ',' << exact(m.x[i]) << ',' << exact(m.y[i]) << ',' << exact(m.vx[i])
+        const CreationRanks ranks(m.created, m.size());
+        for (std::size_t place = 0; place < m.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
+            stream << place << ',' << exact(m.x[i]) << ',' << exact(m.y[i]) << ',' << exact(m.vx[i])
                    << ',' << exact(m.vy[i]) << '\n';
         }
     });

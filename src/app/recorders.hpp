@@ -22,7 +22,8 @@ class FrameRecorder {
 };
 
 /// A row for every collision: t,i,j,axis with i, j in order of creation, static bodies counted down
-/// from -1, and axis 1 = x, 2 = y, 3 = both.
+/// from -1, and axis 1 = x, 2 = y, 3 = both; then impulse (kg px/s) and speed of approach (px/s)
+/// along each axis.
 class EventRecorder {
   public:
     explicit EventRecorder(const std::string& file);

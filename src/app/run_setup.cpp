@@ -3,6 +3,8 @@
 #include <iostream>
 #include <utility>
 
+#include <quadrille/names.hpp>
+
 #include "app/scene_catalog.hpp"
 
 namespace quadrille::app {
@@ -38,40 +40,14 @@ Start loadStart(const Options& options) {
             .step = scene.step};
 }
 
-/// From how many moving bodies on a device is faster than any number of threads, as measured on an
-/// H100 beside 16 cores (docs/performance.md).
-constexpr std::size_t cudaPaysFrom = 10'000;
-
-/// From how many moving bodies on so many threads are worth it, measured there and on 2 cores.
-std::size_t threadsPayFrom(int threads) { return threads >= 4 ? 5'000 : 10'000; }
-
-ResolverKind chooseAutomatically(const SimulationConfig& config, std::size_t movingCount) {
-    if (config.law == Law::Baseline) return ResolverKind::Sequential;
-    // The device is looked for last: that takes longer than many a small run.
-    if (config.law == Law::Impulse && movingCount >= cudaPaysFrom && findCudaDevice().usable()) {
-        return ResolverKind::Cuda;
-    }
-    const int threads = config.threads > 0 ? config.threads : Simulation::cores();
-    return threads > 1 && movingCount >= threadsPayFrom(threads) ? ResolverKind::Threads
-                                                                 : ResolverKind::Sequential;
-}
-
-ResolverKind chooseResolver(const Options& options, const SimulationConfig& config,
-                            std::size_t movingCount) {
-    if (options.resolver == "auto") return chooseAutomatically(config, movingCount);
-    if (options.resolver == "sequential") return ResolverKind::Sequential;
-    if (options.resolver == "threads" && config.law != Law::Baseline) return ResolverKind::Threads;
-    if (options.resolver == "cuda" && config.law != Law::Continuous) return ResolverKind::Cuda;
-    const std::string reason = options.resolver == "cuda-resident"
-                                   ? "the resolver 'cuda-resident' is not available yet"
-                                   : "the law '" + std::string(name(config.law)) +
-                                         "' does not run on the resolver '" + options.resolver +
-                                         "'";
-    if (!options.fallback) {
-        if (options.resolver != "cuda-resident") throw NotAvailable(reason);
-        throw NoDevice(reason);
-    }
-    std::cerr << "collisionStress: warning: " << reason << "; running 'sequential'\n";
+/// The resolver that is asked for, or the sequential one where the law does not run on it.
+ResolverKind runnable(ResolverKind wanted, Law law, bool fallback) {
+    if (runsOn(law, wanted)) return wanted;
+    const std::string reason = "the law '" + std::string(name(law)) +
+                               "' does not run on the resolver '" + std::string(name(wanted)) + "'";
+    if (!fallback) throw NotAvailable(reason);
+    std::cerr << "collisionStress: warning: " << reason << "; running '"
+              << name(ResolverKind::Sequential) << "'\n";
     return ResolverKind::Sequential;
 }
 
@@ -81,9 +57,10 @@ constexpr std::size_t mostAuditedInEveryFrame = 20'000;
 
 }  // namespace
 
-void warnOfFallback(const Simulation& simulation) {
-    std::cerr << "collisionStress: warning: the resolver 'cuda' cannot run ("
-              << simulation.resolverFailure() << "); running 'sequential'\n";
+void warnOfFallback(const Run& run) {
+    std::cerr << "collisionStress: warning: the resolver '" << name(run.requestedResolver)
+              << "' cannot run (" << run.simulation.resolverFailure() << "); running '"
+              << name(run.simulation.config().resolver) << "'\n";
 }
 
 bool mayMissPairs(const PartitionerConfig& partitioner) {
@@ -99,10 +76,10 @@ Run setUp(const Options& options) {
     config.law = options.law.value_or(start.law);
     config.precision = options.precision.value_or(start.world.precision());
     config.threads = options.threads.value_or(0);
-    config.resolver = chooseResolver(options, config, start.world.movingCount());
-    config.dt = options.dt.value_or(start.step.dt);
-    config.gravity = start.step.gravity;
-    config.restitution = options.restitution.value_or(start.step.restitution);
+    config.resolver = runnable(options.resolver, config.law, options.fallback);
+    config.step = start.step;
+    if (options.dt) config.step.dt = *options.dt;
+    if (options.restitution) config.step.restitution = *options.restitution;
     config.profile = options.profile;
     config.countMissedPairs = options.error || mayMissPairs(options.partitioner);
     if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {
@@ -115,7 +92,7 @@ Run setUp(const Options& options) {
             .requestedResolver = options.resolver,
             .simulation = Simulation(std::move(start.world), config)};
     run.simulation.resumeAt(start.stepsDone);
-    if (!run.simulation.resolverFailure().empty()) warnOfFallback(run.simulation);
+    if (!run.simulation.resolverFailure().empty()) warnOfFallback(run);
     return run;
 }
 

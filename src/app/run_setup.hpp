@@ -13,18 +13,12 @@ namespace quadrille::app {
 struct Run {
     std::string scene;
     std::uint64_t seed;
-    std::string requestedResolver;
+    ResolverKind requestedResolver;
     Simulation simulation;
 };
 
-/// A resolver that cannot run here, with --no-fallback; ends the program with exit code 4.
-class NoDevice : public Error {
-  public:
-    using Error::Error;
-};
-
 /// Says on stderr that a device failed and what runs instead.
-void warnOfFallback(const Simulation& simulation);
+void warnOfFallback(const Run& run);
 
 /// Loads the scene or the snapshot and makes the simulation that the options ask for. A resolver
 /// that cannot run is replaced by the sequential one, with a warning on stderr.

@@ -12,9 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, phaseCount> phaseNames = {
-    "integrate", "partition", "flatten", "copy_to_device", "resolve", "copy_to_host", "observe"};
-
 constexpr std::array<std::string_view, showPhaseCount> showPhaseNames = {"gui", "prepare", "draw",
                                                                          "present"};
 
@@ -51,12 +48,13 @@ Json partitionerParameters(const PartitionerConfig& config) {
 }  // namespace
 
 std::string_view phaseName(std::size_t phase) {
-    return phase < phaseCount ? phaseNames[phase] : showPhaseNames[phase - phaseCount];
+    return phase < phaseCount ? name(static_cast<Phase>(phase))
+                              : showPhaseNames[phase - phaseCount];
 }
 
 Conserved Conserved::of(const Simulation& simulation) {
     return {.kinetic = kineticEnergy(simulation.world()),
-            .total = totalEnergy(simulation.world(), simulation.config().gravity),
+            .total = totalEnergy(simulation.world(), simulation.config().step.gravity),
             .momentum = quadrille::momentum(simulation.world())};
 }
 
@@ -71,7 +69,7 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     const World& world = simulation.world();
     const Conserved end = Conserved::of(simulation);
     const FrameTimes times = statistics.times();
-    const CellLoad cells = load(simulation.cells());
+    const CellLoad cells = loadOf(simulation.cells());
     Json json;
     json["scene"] = run.scene;
     json["seed"] = run.seed;
@@ -79,15 +77,15 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["static_entities"] = world.staticCount();
     json["frames"] = statistics.frames();
     json["steps_done"] = simulation.stepsDone();
-    json["dt"] = config.dt;
-    json["gravity"] = {config.gravity.x(), config.gravity.y()};
-    json["restitution"] = config.restitution;
+    json["dt"] = config.step.dt;
+    json["gravity"] = {config.step.gravity.x(), config.step.gravity.y()};
+    json["restitution"] = config.step.restitution;
     json["law"] = name(config.law);
     json["precision"] = name(config.precision);
     json["partitioner"] = name(config.partitioner);
     json["partitioner_parameters"] = partitionerParameters(config.partitioner);
     json["resolver"] = name(config.resolver);
-    json["requested_resolver"] = run.requestedResolver;
+    json["requested_resolver"] = name(run.requestedResolver);
     json["threads"] = run.simulation.threads();
     json["device"] =
         config.resolver == ResolverKind::Cuda ? Json(findCudaDevice().name) : Json(nullptr);
@@ -95,7 +93,7 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     if (config.profile) {
         const auto phases = statistics.phaseMilliseconds();
         Json& out = json["phases_ms"];
-        for (std::size_t i = 0; i < phaseCount; ++i) out[std::string(phaseNames[i])] = phases[i];
+        for (std::size_t i = 0; i < phaseCount; ++i) out[std::string(phaseName(i))] = phases[i];
         if (statistics.shown && statistics.shown->pictures > 0) {
             for (std::size_t i = 0; i < showPhaseCount; ++i) {
                 out[std::string(showPhaseNames[i])] =

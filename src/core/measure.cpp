@@ -1,49 +1,23 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <type_traits>
 
+#include <quadrille/creation_ranks.hpp>
 #include <quadrille/measure.hpp>
 
 #include "collision/broad/partitioner.hpp"
 #include "collision/pairs/narrow_phase.hpp"
-#include "collision/rules/canonical_order.hpp"
 
 namespace quadrille {
-
-namespace {
-
-template <class Real>
-std::uint64_t bitsOf(Real value) {
-    using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
-    return std::bit_cast<Bits>(value == 0 ? Real(0) : value);
-}
-
-}  // namespace
-
-std::uint64_t stateHash(const World& world) {
-    return world.visitBodies([](const auto& bodies) {
-        const auto& m = bodies.moving;
-        // 2^64 / golden ratio: neighbouring positions get unrelated offsets (Knuth, TAOCP 6.4).
-        constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;
-        std::uint64_t sum = mix64(m.size());
-        std::uint64_t position = 0;
-        for (std::size_t i = 0; i < m.size(); ++i) {
-            for (const auto value : {m.x[i], m.y[i], m.vx[i], m.vy[i]}) {
-                sum += mix64(mix64(bitsOf(value)) + ++position * golden);
-            }
-        }
-        return mix64(sum);
-    });
-}
 
 double kineticEnergy(const World& world) { return totalEnergy(world, Vec2(0, 0)); }
 
 double totalEnergy(const World& world, const Vec2& gravity) {
     return world.visitBodies([&](const auto& bodies) {
         const auto& m = bodies.moving;
+        const CreationRanks ranks(m.created, m.size());
         double sum = 0;
-        for (std::size_t i = 0; i < m.size(); ++i) {
+        for (std::size_t place = 0; place < m.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
             const Vec2 v(m.vx[i], m.vy[i]);
             double energy = v.squaredNorm() / 2;
             if (gravity != Vec2(0, 0)) energy -= gravity.dot(Vec2(m.x[i], m.y[i]));
@@ -56,8 +30,10 @@ double totalEnergy(const World& world, const Vec2& gravity) {
 Vec2 momentum(const World& world) {
     return world.visitBodies([](const auto& bodies) {
         const auto& m = bodies.moving;
+        const CreationRanks ranks(m.created, m.size());
         Vec2 sum(0, 0);
-        for (std::size_t i = 0; i < m.size(); ++i) {
+        for (std::size_t place = 0; place < m.size(); ++place) {
+            const std::size_t i = ranks.rowAt(place);
             sum += static_cast<double>(m.mass[i]) * Vec2(m.vx[i], m.vy[i]);
         }
         return sum;

@@ -2,22 +2,22 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include <quadrille/creation_ranks.hpp>
 #include <quadrille/error.hpp>
 #include <quadrille/simulation.hpp>
+#include <quadrille/snapshot.hpp>
 
+#include "core/engine.hpp"
 #include "core/step_times.hpp"
-#include "core/stepper.hpp"
+#include "core/world_access.hpp"
+#include "parallel/thread_team.hpp"
 
 namespace quadrille {
-
-std::string_view name(Precision precision) {
-    return precision == Precision::Double ? "double" : "float";
-}
 
 namespace {
 
@@ -25,20 +25,20 @@ namespace {
 constexpr int mostThreads = 1024;
 
 void validate(const SimulationConfig& config) {
-    if (!std::isfinite(config.dt) || !(config.dt > 0)) {
+    if (!std::isfinite(config.step.dt) || !(config.step.dt > 0)) {
         throw Error("simulation: dt must be finite and positive");
     }
-    if (!config.gravity.allFinite()) throw Error("simulation: gravity must be finite");
+    if (!config.step.gravity.allFinite()) throw Error("simulation: gravity must be finite");
     if (config.threads < 0 || config.threads > mostThreads) {
         throw Error("simulation: the number of threads must be from 1 to " +
                     std::to_string(mostThreads) + ", or 0 for one on each core");
     }
     if (config.precision == Precision::Float) {
-        const auto dt = static_cast<float>(config.dt);
+        const auto dt = static_cast<float>(config.step.dt);
         if (!std::isfinite(dt) || !(dt > 0)) {
             throw Error("simulation: dt does not fit single precision");
         }
-        if (!config.gravity.cast<float>().allFinite()) {
+        if (!config.step.gravity.cast<float>().allFinite()) {
             throw Error("simulation: gravity does not fit single precision");
         }
     }
@@ -46,17 +46,50 @@ void validate(const SimulationConfig& config) {
     if (block < 32 || block > 1024 || block % 32 != 0) {
         throw Error("simulation: the block size must be a multiple of 32 from 32 to 1024");
     }
-    if (!(config.restitution >= 0 && config.restitution <= 1)) {
+    if (!(config.step.restitution >= 0 && config.step.restitution <= 1)) {
         throw Error("simulation: restitution must be from 0 to 1");
     }
     if (config.missedPairsEvery == 0) throw Error("simulation: missedPairsEvery must be positive");
 }
 
-using AnyStepper = std::variant<Stepper<double>, Stepper<float>>;
+/// Functions that are called in the order in which they were registered. One may register another
+/// one, or remove any, while it runs.
+template <class Function>
+class Listeners {
+  public:
+    Subscription add(Function function) {
+        auto active = std::make_shared<bool>(true);
+        list_.push_back({std::move(function), active});
+        return Subscription(std::move(active));
+    }
+    template <class... Arguments>
+    void call(Arguments&&... arguments) {
+        for (std::size_t i = 0; i < list_.size(); ++i) {
+            if (*list_[i].active) list_[i].function(arguments...);
+        }
+    }
+    /// Not while they are called.
+    void forgetRemoved() {
+        std::erase_if(list_, [](const Entry& entry) { return !*entry.active; });
+    }
+    bool empty() const {
+        return std::none_of(list_.begin(), list_.end(),
+                            [](const Entry& entry) { return *entry.active; });
+    }
 
-AnyStepper makeStepper(const SimulationConfig& config, const Vec2& worldSize) {
-    if (config.precision == Precision::Float) return Stepper<float>(config, worldSize);
-    return Stepper<double>(config, worldSize);
+  private:
+    struct Entry {
+        Function function;
+        std::shared_ptr<bool> active;
+    };
+    std::deque<Entry> list_;  // does not move its elements when one is added
+};
+
+SimulationConfig chosen(SimulationConfig config, const World& world) {
+    if (config.resolver == ResolverKind::Auto) {
+        config.resolver = chooseResolver(config, world.movingCount());
+    }
+    return config;
 }
 
 }  // namespace
@@ -64,44 +97,38 @@ AnyStepper makeStepper(const SimulationConfig& config, const Vec2& worldSize) {
 struct Simulation::Impl {
     World world;
     SimulationConfig config;
-    AnyStepper stepper;
-    std::string resolverFailure;  // outlives the stepper that noticed it
+    std::unique_ptr<Engine> engine;
+    std::string resolverFailure;  // outlives the engine that noticed it
     StepReport report;
     std::uint64_t stepsDone = 0;
 
-    // Deques: a callback may register another one, and must not be moved while it runs.
-    std::deque<std::function<void(World&, double)>> systems;
-    std::deque<std::function<void(const Contact&)>> contactListeners;
-    std::deque<std::function<void(const World&, const StepReport&)>> observers;
-    std::vector<ContactRecord> records;
+    Listeners<std::function<void(World&, double)>> systems;
+    Listeners<std::function<void(const Contact&)>> contactListeners;
+    Listeners<std::function<void(const World&, const StepReport&)>> observers;
     std::vector<Contact> contacts;
 
-    Impl(World w, SimulationConfig c)
+    Impl(World w, const SimulationConfig& c)
         : world(std::move(w)),
-          config(std::move(c)),
-          stepper(makeStepper(config, world.config().size)) {
+          config(chosen(c, world)),
+          engine(makeEngine(config, world.config().size)) {
         world.setPrecision(config.precision);
-        dropUnusedAnchors();
         noteFallback();
     }
 
-    void dropUnusedAnchors();
     void collectContacts();
     void notify();
 
     /// Says in the configuration what runs after a fallback.
     void noteFallback() {
-        const std::string failure =
-            std::visit([](const auto& s) { return std::string(s.resolverFailure()); }, stepper);
-        if (failure.empty()) return;
-        config.resolver = ResolverKind::Sequential;
-        resolverFailure = failure;
+        config.resolver = engine->resolver();
+        if (!engine->failure().empty()) resolverFailure = engine->failure();
     }
+    bool keepsContacts() const { return config.keepContacts || !contactListeners.empty(); }
 };
 
 Simulation::Simulation(World world, SimulationConfig config) {
     validate(config);
-    impl_ = std::make_unique<Impl>(std::move(world), std::move(config));
+    impl_ = std::make_unique<Impl>(std::move(world), config);
 }
 
 Simulation::~Simulation() = default;
@@ -111,63 +138,62 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 const StepReport& Simulation::step() {
     Impl& s = *impl_;
     s.world.flush();
-    for (std::size_t i = 0; i < s.systems.size(); ++i) s.systems[i](s.world, s.config.dt);
+    s.systems.call(s.world, s.config.step.dt);
+    s.systems.forgetRemoved();
     s.world.flush();
 
-    s.report = StepReport{.step = s.stepsDone + 1};
-    s.records.clear();
-    std::visit(
-        [&](auto& stepper) {
-            stepper.step(s.world, s.stepsDone + 1,
-                         s.contactListeners.empty() ? nullptr : &s.records, s.report,
-                         s.config.profile);
-        },
-        s.stepper);
+    const StepTimes times(s.config.step.dt);
+    StepWindow window{.number = s.stepsDone + 1,
+                      .from = times.at(s.stepsDone),
+                      .to = times.at(s.stepsDone + 1),
+                      .keepContacts = s.keepsContacts()};
+    s.report = StepReport{.step = window.number};
+    s.contacts.clear();
+    s.engine->step(WorldAccess::store(s.world), window, s.report);
     ++s.stepsDone;
     s.noteFallback();
+    if (window.keepContacts) s.collectContacts();
     s.notify();
     return s.report;
 }
 
-/// Discrete laws move bodies without their anchors; `continuous` must not find old ones later.
-void Simulation::Impl::dropUnusedAnchors() {
-    if (config.law == Law::Continuous) return;
-    world.visitBodies([](const auto& bodies) { *bodies.moving.anchors = {}; });
-}
-
 /// Contacts are complete before a listener sees one: it may create and destroy bodies.
 void Simulation::Impl::collectContacts() {
-    contacts.clear();
     world.visitBodies([&](const auto& bodies) {
-        const auto entityOf = [&](std::int64_t row) {
-            return world.entityAt(row >= 0
-                                      ? bodies.moving.entity[static_cast<std::size_t>(row)]
-                                      : bodies.fixed.entity[static_cast<std::size_t>(-1 - row)]);
-        };
-        for (const ContactRecord& record : records) {
-            contacts.push_back({.a = entityOf(record.a),
-                                .b = entityOf(record.b),
-                                .time = record.time,
-                                .axis = static_cast<Axis>(record.axes),
-                                .normal = Vec2((record.axes & 1) != 0 ? record.senseX : 0,
-                                               (record.axes & 2) != 0 ? record.senseY : 0),
-                                .collided = record.collided,
-                                .rowA = record.a,
-                                .rowB = record.b});
+        const CreationRanks moving(bodies.moving.created, bodies.moving.size());
+        const CreationRanks fixed(bodies.fixed.created, bodies.fixed.size());
+        const auto& m = bodies.moving;
+        const auto& f = bodies.fixed;
+        for (const ContactRecord& record : engine->contacts()) {
+            const std::uint32_t b = record.b.row();
+            const bool withStatic = record.b.isStatic();
+            const bool alongX = (record.axes & static_cast<int>(Axis::X)) != 0;
+            const bool alongY = (record.axes & static_cast<int>(Axis::Y)) != 0;
+            contacts.push_back(
+                {.a = world.entityAt(m.entity[record.a]),
+                 .b = world.entityAt(withStatic ? f.entity[b] : m.entity[b]),
+                 .time = record.time,
+                 .axis = static_cast<Axis>(record.axes),
+                 .normal = Vec2(alongX ? record.senseX : 0, alongY ? record.senseY : 0),
+                 .collided = record.collided,
+                 .impulse = Vec2(record.impulseX, record.impulseY),
+                 .approach = Vec2(record.approachX, record.approachY),
+                 .numberA = static_cast<std::int64_t>(moving[record.a]),
+                 .numberB = withStatic ? -1 - static_cast<std::int64_t>(fixed[b])
+                                       : static_cast<std::int64_t>(moving[b])});
         }
     });
 }
 
 void Simulation::Impl::notify() {
+    contactListeners.forgetRemoved();
+    observers.forgetRemoved();
     if (contactListeners.empty() && observers.empty()) return;
     const auto before = std::chrono::steady_clock::now();
-    if (!records.empty()) {
-        collectContacts();
-        for (const Contact& contact : contacts) {
-            for (std::size_t i = 0; i < contactListeners.size(); ++i) contactListeners[i](contact);
-        }
+    if (!contactListeners.empty()) {
+        for (const Contact& contact : contacts) contactListeners.call(contact);
     }
-    for (std::size_t i = 0; i < observers.size(); ++i) observers[i](world, report);
+    observers.call(std::as_const(world), std::as_const(report));
     world.flush();
     report.observeSeconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
@@ -186,18 +212,28 @@ const SimulationConfig& Simulation::config() const { return impl_->config; }
 const std::string& Simulation::resolverFailure() const { return impl_->resolverFailure; }
 
 std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
-double Simulation::time() const { return StepTimes(impl_->config.dt).at(impl_->stepsDone); }
+double Simulation::time() const { return StepTimes(impl_->config.step.dt).at(impl_->stepsDone); }
 
-void Simulation::onContact(std::function<void(const Contact&)> listener) {
-    impl_->contactListeners.push_back(std::move(listener));
+std::span<const Contact> Simulation::contacts() const {
+    if (!impl_->keepsContacts()) {
+        throw Error(
+            "simulation: contacts are not kept; SimulationConfig::keepContacts asks for it");
+    }
+    return impl_->contacts;
 }
 
-void Simulation::onStep(std::function<void(const World&, const StepReport&)> observer) {
-    impl_->observers.push_back(std::move(observer));
+const Cells& Simulation::cells() const { return impl_->engine->cells(); }
+
+Subscription Simulation::onContact(std::function<void(const Contact&)> listener) {
+    return impl_->contactListeners.add(std::move(listener));
 }
 
-void Simulation::addSystem(std::function<void(World&, double)> system) {
-    impl_->systems.push_back(std::move(system));
+Subscription Simulation::onStep(std::function<void(const World&, const StepReport&)> observer) {
+    return impl_->observers.add(std::move(observer));
+}
+
+Subscription Simulation::addSystem(std::function<void(World&, double)> system) {
+    return impl_->systems.add(std::move(system));
 }
 
 void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
@@ -209,25 +245,52 @@ void Simulation::setPartitioner(const PartitionerConfig& partitioner) {
 void Simulation::reconfigure(const SimulationConfig& config) {
     Impl& s = *impl_;
     validate(config);
-    if (config.dt != s.config.dt) throw Error("simulation: dt cannot change during a run");
+    if (config.step.dt != s.config.step.dt) {
+        throw Error("simulation: dt cannot change during a run");
+    }
     if (config.precision != s.config.precision) {
         throw Error("simulation: the precision cannot change during a run");
     }
-    AnyStepper stepper = makeStepper(config, s.world.config().size);
-    s.config = config;
-    s.stepper = std::move(stepper);
-    if (config.resolver != ResolverKind::Sequential) s.resolverFailure.clear();
-    s.dropUnusedAnchors();
+    const SimulationConfig next = chosen(config, s.world);
+    const StepSettings& before = s.config.step;
+    const bool otherPhysics = config.law != s.config.law || config.step.gravity != before.gravity ||
+                              config.step.restitution != before.restitution;
+    std::unique_ptr<Engine> engine = makeEngine(next, s.world.config().size);
+    s.config = next;
+    s.engine = std::move(engine);
+    if (otherPhysics) WorldAccess::store(s.world).countEdit();
+    if (next.resolver != ResolverKind::Sequential) s.resolverFailure.clear();
     s.noteFallback();
 }
 
-const Cells& Simulation::cells() const {
-    return std::visit([](const auto& s) -> const Cells& { return s.cells(); }, impl_->stepper);
+Snapshot Simulation::snapshot() const {
+    const Impl& s = *impl_;
+    return {.scene = {},
+            .seed = s.world.config().seed,
+            .stepsDone = s.stepsDone,
+            .law = s.config.law,
+            .step = s.config.step,
+            .world = s.world.clone()};
 }
 
-int Simulation::threads() const {
-    return static_cast<int>(std::visit([](const auto& s) { return s.threads(); }, impl_->stepper));
+void Simulation::restore(const Snapshot& snapshot) {
+    Impl& s = *impl_;
+    SimulationConfig config = s.config;
+    config.law = snapshot.law;
+    config.step = snapshot.step;
+    config.precision = snapshot.world.precision();
+    validate(config);
+    World world = snapshot.world.clone();
+    std::unique_ptr<Engine> engine = makeEngine(config, world.config().size);
+    s.world = std::move(world);
+    s.config = config;
+    s.engine = std::move(engine);
+    s.stepsDone = snapshot.stepsDone;
+    s.contacts.clear();
+    s.noteFallback();
 }
+
+int Simulation::threads() const { return static_cast<int>(impl_->engine->threads()); }
 
 int Simulation::cores() { return std::min(mostThreads, static_cast<int>(ThreadTeam::cores())); }
 
@@ -238,20 +301,18 @@ ModelFeatures Simulation::features() const {
         return ModelFeatures{
             .movingBodies = m.size() > 0,
             .staticBodies = bodies.fixed.size() > 0,
-            .gravity = s.config.gravity != Vec2(0, 0),
-            .inelastic = s.config.restitution != 1,
+            .gravity = s.config.step.gravity != Vec2(0, 0),
+            .inelastic = s.config.step.restitution != 1,
             .sizesDiffer = !m.halfWidth.uniform() || !m.halfHeight.uniform(),
             .massesDiffer = !m.mass.uniform(),
-            .listeners = !s.contactListeners.empty(),
+            .listeners = s.keepsContacts(),
             .profile = s.config.profile,
         };
     });
 }
 
 std::size_t Simulation::workspaceBytes() const {
-    return std::visit([](const auto& s) { return s.bytes(); }, impl_->stepper) +
-           impl_->records.capacity() * sizeof(ContactRecord) +
-           impl_->contacts.capacity() * sizeof(Contact);
+    return impl_->engine->bytes() + impl_->contacts.capacity() * sizeof(Contact);
 }
 
 void Simulation::resumeAt(std::uint64_t stepsDone) { impl_->stepsDone = stepsDone; }

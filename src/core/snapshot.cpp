@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -6,16 +7,18 @@
 
 #include <quadrille/components.hpp>
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 #include <quadrille/snapshot.hpp>
 
 #include "core/snapshot_stream.hpp"
+#include "core/world_access.hpp"
 
 namespace quadrille {
 
 namespace {
 
 constexpr std::string_view magic = "QUADRILLE SNAPSHOT\n";
-constexpr std::uint32_t formatVersion = 2;
+constexpr std::uint32_t formatVersion = 3;
 constexpr std::uint32_t byteOrderMark = 0x01020304;
 
 void write(SnapshotWriter& out, const Vec2& v) {
@@ -56,167 +59,207 @@ void read(SnapshotReader& in, RectangleRenderer& c) {
 }
 void read(SnapshotReader& in, Name& c) { c.value = in.text(); }
 
-template <class Real>
-void writeColumn(SnapshotWriter& out, const Column<Real>& column) {
-    const ColumnView<Real> view = column.view();
-    out.number<std::uint64_t>(column.size());
+// ---- columns, by kind
+
+template <class T>
+void write(SnapshotWriter& out, const PlainColumn<T>& column) {
+    out.numbers(column.stored());
+}
+template <class T>
+void read(SnapshotReader& in, PlainColumn<T>& column, std::size_t) {
+    column.store(in.numbers<T>());
+}
+
+template <class T>
+void write(SnapshotWriter& out, const Column<T>& column) {
+    const ColumnView<T> view = column.view();
     out.number<std::uint8_t>(view.uniform());
     if (view.uniform()) {
         out.number(view.common);
     } else {
-        out.write(view.values.data(), view.values.size_bytes());
+        out.numbers(std::vector<T>(view.values.begin(), view.values.end()));
+    }
+}
+template <class T>
+void read(SnapshotReader& in, Column<T>& column, std::size_t rows) {
+    const bool uniform = in.number<std::uint8_t>() != 0;
+    const T common = uniform ? in.number<T>() : T{};
+    const std::vector<T> values = uniform ? std::vector<T>{} : in.numbers<T>();
+    if (!uniform && values.size() != rows) in.fail("has columns of different lengths");
+    for (std::size_t i = 0; i < rows; ++i) {
+        column.grow();
+        column.set(i, uniform ? common : values[i]);
     }
 }
 
-template <class Real>
-void readColumn(SnapshotReader& in, Column<Real>& column, std::size_t rows) {
-    const auto size = in.number<std::uint64_t>();
-    const bool uniform = in.number<std::uint8_t>() != 0;
-    if (size != rows) in.fail("has columns of different lengths");
-    Real value{};
-    if (uniform) value = in.number<Real>();
-    for (std::size_t i = 0; i < size; ++i) {
-        if (!uniform) value = in.number<Real>();
-        column.push_back(value);
+template <class T>
+void write(SnapshotWriter& out, const OptionalColumn<T>& column) {
+    out.number<std::uint8_t>(column.kept());
+    if (column.kept()) out.numbers(column.stored());
+}
+template <class T>
+void read(SnapshotReader& in, OptionalColumn<T>& column, std::size_t) {
+    if (in.number<std::uint8_t>() != 0) column.store(in.numbers<T>(), T{});
+}
+
+void write(SnapshotWriter& out, const CreationColumn& column) {
+    out.number(column.next());
+    out.numbers(column.stored());
+}
+void read(SnapshotReader& in, CreationColumn& column, std::size_t rows) {
+    const auto next = in.number<std::uint32_t>();
+    column.store(in.numbers<std::uint32_t>(), rows, next);
+}
+
+template <class Set>
+void writeSet(SnapshotWriter& out, const Set& set) {
+    out.number<std::uint64_t>(set.size());
+    set.forEachColumn([&](ColumnInfo, const auto& column) { write(out, column); }, set);
+}
+template <class Set>
+void readSet(SnapshotReader& in, Set& set) {
+    const auto rows = in.number<std::uint64_t>();
+    if (rows > BodyRef::mostRows || rows > in.left()) in.fail("ends too early");
+    set.forEachColumn([&](ColumnInfo, auto& column) { read(in, column, rows); }, set);
+    if (set.size() != rows) in.fail("has columns of different lengths");
+}
+
+// ---- components
+
+template <class... Cs>
+void writePools(SnapshotWriter& out, const World& world) {
+    const auto one = [&]<class C>() {
+        const auto* pool = WorldAccess::findPool<C>(world);
+        out.number<std::uint64_t>(pool != nullptr ? pool->size() : 0);
+        if (pool == nullptr) return;
+        for (const Entity entity : pool->entities()) {
+            out.number(entity.index);
+            out.number(entity.generation);
+            write(out, (*pool)[entity.index]);
+        }
+    };
+    (one.template operator()<Cs>(), ...);
+}
+
+template <class... Cs>
+void readPools(SnapshotReader& in, World& world) {
+    const auto one = [&]<class C>() {
+        const auto count = in.number<std::uint64_t>();
+        for (std::uint64_t i = 0; i < count; ++i) {
+            Entity entity;
+            entity.index = in.number<std::uint32_t>();
+            entity.generation = in.number<std::uint32_t>();
+            if (entity.index >= WorldAccess::tables(world).generations.size() ||
+                world.entityAt(entity.index) != entity) {
+                in.fail("has components of an entity that does not exist");
+            }
+            C component;
+            read(in, component);
+            WorldAccess::pool<C>(world).put(entity, std::move(component));
+        }
+    };
+    (one.template operator()<Cs>(), ...);
+}
+
+// ---- the world
+
+void write(SnapshotWriter& out, const World& world) {
+    const auto tables = WorldAccess::tables(world);
+    write(out, tables.config.size);
+    out.number(tables.config.seed);
+    std::ostringstream random;
+    random << tables.random.engine();
+    out.text(random.str());
+    out.numbers(tables.generations);
+    out.numbers(std::vector<std::uint8_t>(tables.dead.begin(), tables.dead.end()));
+    out.numbers(tables.slots);
+    out.numbers(tables.free);
+    std::vector<std::uint32_t> condemned;
+    for (const Entity entity : tables.condemned) condemned.push_back(entity.index);
+    out.numbers(condemned);
+    out.number(static_cast<std::uint8_t>(world.precision()));
+    const BodyStore& store = WorldAccess::store(world);
+    std::visit(
+        [&](const auto& columns) {
+            writeSet(out, columns.moving);
+            writeSet(out, columns.fixed);
+        },
+        store.columns());
+    out.number<std::uint8_t>(store.edited());
+    writePools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(out, world);
+}
+
+World readWorld(SnapshotReader& in) {
+    WorldConfig config;
+    config.size = readVec2(in);
+    config.seed = in.number<std::uint64_t>();
+    if (!config.size.allFinite() || !(config.size.minCoeff() > 0)) {
+        in.fail("has a world whose size is not finite and positive");
     }
+    World world(config);
+    const auto tables = WorldAccess::tables(world);
+    std::istringstream random(in.text());
+    random >> tables.random.engine();
+    if (!random) in.fail("has no random generator");
+    tables.generations = in.numbers<std::uint32_t>();
+    const auto dead = in.numbers<std::uint8_t>();
+    tables.dead.assign(dead.begin(), dead.end());
+    tables.slots = in.numbers<BodyRef>();
+    tables.free = in.numbers<std::uint32_t>();
+    const auto condemned = in.numbers<std::uint32_t>();
+    const std::size_t entities = tables.generations.size();
+    if (tables.dead.size() != entities || tables.slots.size() != entities ||
+        tables.free.size() + condemned.size() > entities) {
+        in.fail("has entity tables of different lengths");
+    }
+    for (const std::uint32_t index : condemned) {
+        if (index >= entities) in.fail("has an entity that does not exist");
+        tables.condemned.push_back(world.entityAt(index));
+    }
+    tables.alive = entities - tables.free.size() - condemned.size();
+    BodyStore::AnyColumns columns;
+    const auto precision = in.number<std::uint8_t>();
+    if (precision == static_cast<std::uint8_t>(Precision::Float)) {
+        columns.emplace<BodyStore::Columns<float>>();
+    } else if (precision != static_cast<std::uint8_t>(Precision::Double)) {
+        in.fail("has a precision that is not known");
+    }
+    std::visit(
+        [&](auto& sets) {
+            readSet(in, sets.moving);
+            readSet(in, sets.fixed);
+        },
+        columns);
+    const bool edited = in.number<std::uint8_t>() != 0;
+    WorldAccess::store(world).replace(std::move(columns), edited);
+    readPools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(in, world);
+    if (const auto findings = world.validate(); !findings.empty())
+        in.fail("is unsound: " + findings[0]);
+    return world;
+}
+
+StepSettings readStep(SnapshotReader& in) {
+    StepSettings step;
+    step.dt = in.number<double>();
+    step.gravity = readVec2(in);
+    step.restitution = in.number<double>();
+    if (!(std::isfinite(step.dt) && step.dt > 0)) in.fail("has a dt that is not positive");
+    if (!step.gravity.allFinite()) in.fail("has a gravity that is not finite");
+    if (!(step.restitution >= 0 && step.restitution <= 1)) {
+        in.fail("has a restitution that is not from 0 to 1");
+    }
+    return step;
+}
+
+Law readLaw(SnapshotReader& in) {
+    const auto number = in.number<std::uint8_t>();
+    for (const Named<Law>& law : laws()) {
+        if (static_cast<std::uint8_t>(law.kind) == number) return law.kind;
+    }
+    in.fail("has a law that is not known");
 }
 
 }  // namespace
-
-/// Reads and writes the parts of a World that its interface hides.
-class SnapshotAccess {
-  public:
-    static void write(SnapshotWriter& out, const World& world) {
-        quadrille::write(out, world.config_.size);
-        out.number(world.config_.seed);
-        std::ostringstream random;
-        random << world.random_.engine();
-        out.text(random.str());
-        out.numbers(world.generations_);
-        out.numbers(std::vector<std::uint8_t>(world.dead_.begin(), world.dead_.end()));
-        out.numbers(world.slots_);
-        out.numbers(world.free_);
-        std::vector<std::uint32_t> condemned;
-        for (const Entity entity : world.condemned_) condemned.push_back(entity.index);
-        out.numbers(condemned);
-        out.number(static_cast<std::uint8_t>(world.precision()));
-        std::visit(
-            [&](const auto& columns) {
-                const auto& m = columns.moving;
-                const auto& f = columns.fixed;
-                for (const auto* column : {&m.x, &m.y, &m.vx, &m.vy}) out.numbers(*column);
-                out.numbers(m.entity);
-                out.number<std::uint8_t>(m.anchors.enabled);
-                if (m.anchors.enabled) {
-                    out.numbers(m.anchors.rows);
-                    writeColumn(out, m.anchors.rests);
-                }
-                for (const auto* c : {&m.halfWidth, &m.halfHeight, &m.mass}) writeColumn(out, *c);
-                for (const auto* c : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) out.numbers(*c);
-                out.numbers(f.entity);
-            },
-            world.columns_);
-        writePools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(out, world);
-    }
-
-    static World read(SnapshotReader& in) {
-        WorldConfig config;
-        config.size = readVec2(in);
-        config.seed = in.number<std::uint64_t>();
-        World world(config);
-        std::istringstream random(in.text());
-        random >> world.random_.engine();
-        if (!random) in.fail("has no random generator");
-        world.generations_ = in.numbers<std::uint32_t>();
-        const auto dead = in.numbers<std::uint8_t>();
-        world.dead_.assign(dead.begin(), dead.end());
-        world.slots_ = in.numbers<std::uint32_t>();
-        world.free_ = in.numbers<std::uint32_t>();
-        const auto condemned = in.numbers<std::uint32_t>();
-        const std::size_t entities = world.generations_.size();
-        if (world.dead_.size() != entities || world.slots_.size() != entities ||
-            world.free_.size() + condemned.size() > entities) {
-            in.fail("has entity tables of different lengths");
-        }
-        for (const std::uint32_t index : condemned) {
-            if (index >= entities) in.fail("has an entity that does not exist");
-            world.condemned_.push_back(world.entityAt(index));
-        }
-        world.alive_ = entities - world.free_.size() - condemned.size();
-        if (in.number<std::uint8_t>() == static_cast<std::uint8_t>(Precision::Float)) {
-            world.columns_.emplace<World::Columns<float>>();
-        }
-        std::visit([&](auto& columns) { readColumns(in, columns); }, world.columns_);
-        ++world.revision_;
-        readPools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(in, world);
-        return world;
-    }
-
-  private:
-    template <class Columns>
-    static void readColumns(SnapshotReader& in, Columns& columns) {
-        using Real = typename decltype(columns.moving.x)::value_type;
-        auto& m = columns.moving;
-        auto& f = columns.fixed;
-        for (auto* column : {&m.x, &m.y, &m.vx, &m.vy}) {
-            *column = in.numbers<Real>();
-            if (column->size() != m.x.size()) in.fail("has columns of different lengths");
-        }
-        m.entity = in.numbers<std::uint32_t>();
-        m.anchors.enabled = in.number<std::uint8_t>() != 0;
-        if (m.anchors.enabled) {
-            m.anchors.rows = in.numbers<Anchor<Real>>();
-            if (m.anchors.rows.size() != m.x.size()) in.fail("has columns of different lengths");
-            readColumn(in, m.anchors.rests, m.x.size());
-            // Which rows were waiting for an anchor is not recorded: look at all.
-            m.anchors.incomplete = true;
-        }
-        for (auto* c : {&m.halfWidth, &m.halfHeight, &m.mass}) readColumn(in, *c, m.x.size());
-        for (auto* column : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) {
-            *column = in.numbers<Real>();
-            if (column->size() != f.x.size()) in.fail("has columns of different lengths");
-        }
-        f.entity = in.numbers<std::uint32_t>();
-        if (m.entity.size() != m.x.size() || f.entity.size() != f.x.size()) {
-            in.fail("has columns of different lengths");
-        }
-    }
-
-    template <class... Cs>
-    static void writePools(SnapshotWriter& out, const World& world) {
-        const auto one = [&]<class C>() {
-            const auto* pool = world.findPool<C>();
-            out.number<std::uint64_t>(pool != nullptr ? pool->size() : 0);
-            if (pool == nullptr) return;
-            for (const Entity entity : pool->entities()) {
-                out.number(entity.index);
-                out.number(entity.generation);
-                quadrille::write(out, (*pool)[entity.index]);
-            }
-        };
-        (one.template operator()<Cs>(), ...);
-    }
-
-    template <class... Cs>
-    static void readPools(SnapshotReader& in, World& world) {
-        const auto one = [&]<class C>() {
-            const auto count = in.number<std::uint64_t>();
-            for (std::uint64_t i = 0; i < count; ++i) {
-                Entity entity;
-                entity.index = in.number<std::uint32_t>();
-                entity.generation = in.number<std::uint32_t>();
-                if (entity.index >= world.generations_.size() ||
-                    world.entityAt(entity.index) != entity) {
-                    in.fail("has components of an entity that does not exist");
-                }
-                C component;
-                quadrille::read(in, component);
-                world.pool<C>().put(entity, std::move(component));
-            }
-        };
-        (one.template operator()<Cs>(), ...);
-    }
-};
 
 void saveSnapshot(const std::filesystem::path& file, const Simulation& simulation,
                   const std::string& scene, std::uint64_t seed) {
@@ -228,10 +271,10 @@ void saveSnapshot(const std::filesystem::path& file, const Simulation& simulatio
     out.number(seed);
     out.number(simulation.stepsDone());
     out.number(simulation.config().law);
-    out.number(simulation.config().dt);
-    write(out, simulation.config().gravity);
-    out.number(simulation.config().restitution);
-    SnapshotAccess::write(out, simulation.world());
+    out.number(simulation.config().step.dt);
+    write(out, simulation.config().step.gravity);
+    out.number(simulation.config().step.restitution);
+    write(out, simulation.world());
     out.commit();
 }
 
@@ -245,12 +288,9 @@ Snapshot loadSnapshot(const std::filesystem::path& file) {
     std::string scene = in.text();
     const auto seed = in.number<std::uint64_t>();
     const auto stepsDone = in.number<std::uint64_t>();
-    const auto law = in.number<Law>();
-    StepSettings step;
-    step.dt = in.number<double>();
-    step.gravity = readVec2(in);
-    step.restitution = in.number<double>();
-    World world = SnapshotAccess::read(in);
+    const Law law = readLaw(in);
+    const StepSettings step = readStep(in);
+    World world = readWorld(in);
     if (in.left() != 0) in.fail("has data after its end");
     return {.scene = std::move(scene),
             .seed = seed,

@@ -9,8 +9,10 @@
 #include <type_traits>
 #include <vector>
 
-#include <quadrille/bodies.hpp>
+#include <quadrille/body_ref.hpp>
 #include <quadrille/error.hpp>
+
+#include "collision/rules/bodies.hpp"
 
 namespace quadrille {
 
@@ -32,8 +34,8 @@ concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
 /// Numbers side by side, without gaps whose bytes nobody sets.
 template <class T>
-concept PlainRow =
-    PlainNumber<T> || std::same_as<T, Anchor<double>> || std::same_as<T, Anchor<float>>;
+concept PlainRow = PlainNumber<T> || std::same_as<T, BodyRef> || std::same_as<T, Anchor<double>> ||
+    std::same_as<T, Anchor<float>>;
 
 /// Writes numbers in the machine's byte order, which the snapshot's header names. The data go to a
 /// file beside the target, which takes the target's name when it is complete.

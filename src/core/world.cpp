@@ -4,6 +4,8 @@
 
 #include <quadrille/world.hpp>
 
+#include "core/body_store.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -20,15 +22,6 @@ bool fits(double value, bool positive) {
     return std::isfinite(result) && (!positive || result > 0);
 }
 
-/// Rounds to Real; a value that overflows or vanishes would silently change the body.
-template <class Real>
-Real toReal(double value, const char* what, bool positive = false) {
-    if (!fits<Real>(value, positive)) {
-        throw Error(std::string(what) + " does not fit the precision of the world");
-    }
-    return static_cast<Real>(value);
-}
-
 void requireFits(Entity entity, const char* what, double value, Precision precision,
                  bool positive = false) {
     const bool good = precision == Precision::Double ? fits<double>(value, positive)
@@ -38,27 +31,47 @@ void requireFits(Entity entity, const char* what, double value, Precision precis
     }
 }
 
-template <class Real>
-Real halfExtent(double size) {
-    return toReal<Real>(size / 2, "size", true);
-}
-
 }  // namespace
 
-World::World(WorldConfig config) : config_(config), random_(config.seed) {
+World::World(WorldConfig config)
+    : config_(config), random_(config.seed), store_(std::make_unique<BodyStore>()) {
     if (!config.size.allFinite() || !(config.size.minCoeff() > 0)) {
         throw Error("world: size must be finite and positive");
     }
 }
 
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+BodyStore& World::store() {
+    if (!store_) throw Error("world: it was moved from");
+    return *store_;
+}
+const BodyStore& World::store() const { return const_cast<World*>(this)->store(); }
+
+World World::clone() const {
+    World copy(config_);
+    copy.random_ = random_;
+    copy.generations_ = generations_;
+    copy.dead_ = dead_;
+    copy.slots_ = slots_;
+    copy.free_ = free_;
+    copy.condemned_ = condemned_;
+    copy.alive_ = alive_;
+    copy.store().replace(store().columns(), store().edited());
+    for (const auto& [key, pool] : pools_) copy.pools_.emplace_back(key, pool->clone());
+    return copy;
+}
+
 Entity World::create(std::string_view name) {
     Entity entity;
     if (free_.empty()) {
-        if (generations_.size() >= staticBit) throw Error("world: too many entities");
+        if (generations_.size() >= BodyRef::mostRows) throw Error("world: too many entities");
         entity = {static_cast<std::uint32_t>(generations_.size()), 0};
         generations_.push_back(0);
         dead_.push_back(false);
-        slots_.push_back(Entity::none);
+        slots_.push_back(BodyRef{});
     } else {
         entity.index = free_.back();
         free_.pop_back();
@@ -84,7 +97,7 @@ void World::flush() {
         for (auto& [key, pool] : pools_) pool->erase(entity.index);
         bodies = bodies || isBody(entity);
     }
-    if (bodies) eraseBodies([this](std::uint32_t index) { return dead_[index]; });
+    if (bodies) eraseDeadBodies();
     for (const Entity entity : condemned_) {
         ++generations_[entity.index];
         free_.push_back(entity.index);
@@ -149,92 +162,31 @@ void World::validate(Entity entity, const PhysicsBody& body) const {
 
 // ---- bodies
 
-std::size_t World::movingCount() const {
-    return std::visit([](const auto& columns) { return columns.moving.size(); }, columns_);
-}
+std::size_t World::movingCount() const { return store().movingCount(); }
+std::size_t World::staticCount() const { return store().staticCount(); }
+Precision World::precision() const { return store().precision(); }
+void World::setPrecision(Precision precision) { store().setPrecision(precision); }
 
-std::size_t World::staticCount() const {
-    return std::visit([](const auto& columns) { return columns.fixed.size(); }, columns_);
+template <class Real>
+BodyView<Real> World::bodies() const {
+    return store().read<Real>();
 }
 
 template <class Real>
-BodyView<Real> World::bodies() {
-    auto* columns = std::get_if<Columns<Real>>(&columns_);
-    if (columns == nullptr) throw Error("world: its bodies have the other precision");
-    auto& m = columns->moving;
-    auto& f = columns->fixed;
-    return {.moving = {m.x, m.y, m.vx, m.vy, m.halfWidth.view(), m.halfHeight.view(), m.mass.view(),
-                       m.entity, &m.anchors},
-            .fixed = {f.x, f.y, f.halfWidth, f.halfHeight, f.entity},
-            .revision = revision_};
+MutableBodyView<Real> World::mutableBodies() {
+    return store().mutableView<Real>();
 }
 
-template BodyView<double> World::bodies<double>();
-template BodyView<float> World::bodies<float>();
+void World::countEdit() { store().countEdit(); }
 
-void World::setPrecision(Precision precision) {
-    if (precision == this->precision()) return;
-    auto convert = [&]<class To>(const auto& from, Columns<To>& to) {
-        auto convertRow = [&](const auto& source, std::size_t row,
-                              const std::vector<std::uint32_t>& entity, const char* what,
-                              bool positive) {
-            const auto value = static_cast<double>(source[row]);
-            requireFits(entityAt(entity[row]), what, value, precision, positive);
-            return static_cast<To>(value);
-        };
-        auto copy = [&](const auto& source, const auto& entity, std::vector<To>& target,
-                        const char* what, bool positive = false) {
-            target.reserve(source.size());
-            for (std::size_t i = 0; i < source.size(); ++i) {
-                target.push_back(convertRow(source, i, entity, what, positive));
-            }
-        };
-        auto copyColumn = [&](const auto& source, const auto& entity, Column<To>& target,
-                              const char* what) {
-            for (std::size_t i = 0; i < source.size(); ++i) {
-                target.push_back(convertRow(source, i, entity, what, true));
-            }
-        };
-        const auto& moving = from.moving.entity;
-        const auto& fixed = from.fixed.entity;
-        copy(from.moving.x, moving, to.moving.x, "position");
-        copy(from.moving.y, moving, to.moving.y, "position");
-        copy(from.moving.vx, moving, to.moving.vx, "velocity");
-        copy(from.moving.vy, moving, to.moving.vy, "velocity");
-        copyColumn(from.moving.halfWidth, moving, to.moving.halfWidth, "size");
-        copyColumn(from.moving.halfHeight, moving, to.moving.halfHeight, "size");
-        copyColumn(from.moving.mass, moving, to.moving.mass, "mass");
-        to.moving.entity = moving;
-        copy(from.fixed.x, fixed, to.fixed.x, "position");
-        copy(from.fixed.y, fixed, to.fixed.y, "position");
-        copy(from.fixed.halfWidth, fixed, to.fixed.halfWidth, "size", true);
-        copy(from.fixed.halfHeight, fixed, to.fixed.halfHeight, "size", true);
-        to.fixed.entity = fixed;
-    };
-    if (precision == Precision::Float) {
-        Columns<float> converted;
-        convert(std::get<Columns<double>>(columns_), converted);
-        columns_ = std::move(converted);
-    } else {
-        Columns<double> converted;
-        convert(std::get<Columns<float>>(columns_), converted);
-        columns_ = std::move(converted);
-    }
-    ++revision_;
-}
+#define QUADRILLE_INSTANTIATE(Real)                \
+    template BodyView<Real> World::bodies() const; \
+    template MutableBodyView<Real> World::mutableBodies();
+QUADRILLE_INSTANTIATE(double)
+QUADRILLE_INSTANTIATE(float)
 
 void World::reserveBodies(std::size_t moving) {
-    std::visit(
-        [&](auto& columns) {
-            auto& m = columns.moving;
-            const std::size_t total = m.size() + moving;
-            m.x.reserve(total);
-            m.y.reserve(total);
-            m.vx.reserve(total);
-            m.vy.reserve(total);
-            m.entity.reserve(total);
-        },
-        columns_);
+    store().reserve(moving);
     const std::size_t entities = generations_.size() + moving;
     generations_.reserve(entities);
     slots_.reserve(entities);
@@ -285,39 +237,12 @@ void World::formBody(Entity entity) {
 
 void World::appendBody(Entity entity, const Transform& transform, const BoxCollider& collider,
                        const PhysicsBody& body) {
-    std::visit(
-        [&]<class Real>(Columns<Real>& columns) {
-            const auto x = toReal<Real>(transform.position.x(), "position");
-            const auto y = toReal<Real>(transform.position.y(), "position");
-            const auto halfWidth = halfExtent<Real>(collider.size.x());
-            const auto halfHeight = halfExtent<Real>(collider.size.y());
-            if (body.isStatic) {
-                auto& f = columns.fixed;
-                slots_[entity.index] = static_cast<std::uint32_t>(f.size()) | staticBit;
-                f.x.push_back(x);
-                f.y.push_back(y);
-                f.halfWidth.push_back(halfWidth);
-                f.halfHeight.push_back(halfHeight);
-                f.entity.push_back(entity.index);
-            } else {
-                auto& m = columns.moving;
-                const auto vx = toReal<Real>(body.velocity.x(), "velocity");
-                const auto vy = toReal<Real>(body.velocity.y(), "velocity");
-                const auto mass = toReal<Real>(body.mass, "mass", true);
-                slots_[entity.index] = static_cast<std::uint32_t>(m.size());
-                m.x.push_back(x);
-                m.y.push_back(y);
-                m.vx.push_back(vx);
-                m.vy.push_back(vy);
-                m.halfWidth.push_back(halfWidth);
-                m.halfHeight.push_back(halfHeight);
-                m.mass.push_back(mass);
-                m.entity.push_back(entity.index);
-                m.anchors.append();
-            }
-        },
-        columns_);
-    ++revision_;
+    slots_[entity.index] = store().append({.position = transform.position,
+                                           .halfSize = collider.size / 2,
+                                           .velocity = body.velocity,
+                                           .mass = body.mass,
+                                           .isStatic = body.isStatic,
+                                           .entity = entity.index});
 }
 
 void World::dissolveBody(Entity entity) {
@@ -327,152 +252,62 @@ void World::dissolveBody(Entity entity) {
     readBody(entity, transform);
     readBody(entity, collider);
     readBody(entity, body);
-    eraseBodies([&](std::uint32_t index) { return index == entity.index; });
+    eraseBody(entity);
     pool<Transform>().put(entity, transform);
     pool<BoxCollider>().put(entity, collider);
     pool<PhysicsBody>().put(entity, body);
 }
 
-void World::eraseBodies(const std::function<bool(std::uint32_t)>& gone) {
-    // Keeps the order of the rows, which is the order of creation that dumps and hashes promise.
-    auto compact = [&](auto& entity, std::uint32_t bit, auto&& move) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < entity.size(); ++i) {
-            if (gone(entity[i])) {
-                slots_[entity[i]] = Entity::none;
-                continue;
-            }
-            entity[kept] = entity[i];
-            slots_[entity[kept]] = static_cast<std::uint32_t>(kept) | bit;
-            move(i, kept++);
-        }
-        entity.resize(kept);
-        return kept;
-    };
-    std::visit(
-        [&](auto& columns) {
-            auto& m = columns.moving;
-            const auto moving = compact(m.entity, 0, [&](std::size_t from, std::size_t to) {
-                for (auto* column : {&m.x, &m.y, &m.vx, &m.vy}) (*column)[to] = (*column)[from];
-                for (auto* column : {&m.halfWidth, &m.halfHeight, &m.mass}) column->move(from, to);
-                m.anchors.move(from, to);
-            });
-            for (auto* column : {&m.x, &m.y, &m.vx, &m.vy}) column->resize(moving);
-            for (auto* column : {&m.halfWidth, &m.halfHeight, &m.mass}) column->shrink(moving);
-            m.anchors.shrink(moving);
+void World::eraseBody(Entity entity) {
+    slots_[entity.index] = BodyRef{};
+    store().erase([&](std::uint32_t index) { return index == entity.index; },
+                  [&](std::uint32_t index, BodyRef to) { slots_[index] = to; });
+}
 
-            auto& f = columns.fixed;
-            const auto fixed = compact(f.entity, staticBit, [&](std::size_t from, std::size_t to) {
-                for (auto* column : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) {
-                    (*column)[to] = (*column)[from];
-                }
-            });
-            for (auto* column : {&f.x, &f.y, &f.halfWidth, &f.halfHeight}) column->resize(fixed);
+void World::eraseDeadBodies() {
+    store().erase(
+        [&](std::uint32_t index) {
+            if (dead_[index]) slots_[index] = BodyRef{};
+            return dead_[index];
         },
-        columns_);
-    ++revision_;
+        [&](std::uint32_t index, BodyRef to) { slots_[index] = to; });
 }
 
 void World::readBody(Entity entity, Transform& out) const {
-    const std::uint32_t slot = slots_[entity.index];
-    const std::uint32_t row = slot & ~staticBit;
-    std::visit(
-        [&](const auto& columns) {
-            if ((slot & staticBit) != 0) {
-                out.position = Vec2(columns.fixed.x[row], columns.fixed.y[row]);
-            } else {
-                out.position = Vec2(columns.moving.x[row], columns.moving.y[row]);
-            }
-        },
-        columns_);
+    out.position = store().position(slots_[entity.index]);
 }
 
 void World::readBody(Entity entity, BoxCollider& out) const {
-    const std::uint32_t slot = slots_[entity.index];
-    const std::uint32_t row = slot & ~staticBit;
-    std::visit(
-        [&](const auto& columns) {
-            if ((slot & staticBit) != 0) {
-                out.size = 2 * Vec2(columns.fixed.halfWidth[row], columns.fixed.halfHeight[row]);
-            } else {
-                out.size = 2 * Vec2(columns.moving.halfWidth[row], columns.moving.halfHeight[row]);
-            }
-        },
-        columns_);
+    out.size = 2 * store().halfSize(slots_[entity.index]);
 }
 
 void World::readBody(Entity entity, PhysicsBody& out) const {
-    const std::uint32_t slot = slots_[entity.index];
-    const std::uint32_t row = slot & ~staticBit;
+    const BodyRef body = slots_[entity.index];
     out = PhysicsBody{};
-    out.isStatic = (slot & staticBit) != 0;
+    out.isStatic = body.isStatic();
     if (out.isStatic) return;
-    std::visit(
-        [&](const auto& columns) {
-            out.velocity = Vec2(columns.moving.vx[row], columns.moving.vy[row]);
-            out.mass = static_cast<double>(columns.moving.mass[row]);
-        },
-        columns_);
+    out.velocity = store().velocity(body.row());
+    out.mass = store().mass(body.row());
 }
 
 void World::writeBody(Entity entity, const Transform& in) {
-    const std::uint32_t slot = slots_[entity.index];
-    const std::uint32_t row = slot & ~staticBit;
-    std::visit(
-        [&]<class Real>(Columns<Real>& columns) {
-            const auto x = toReal<Real>(in.position.x(), "position");
-            const auto y = toReal<Real>(in.position.y(), "position");
-            const bool fixed = (slot & staticBit) != 0;
-            (fixed ? columns.fixed.x : columns.moving.x)[row] = x;
-            (fixed ? columns.fixed.y : columns.moving.y)[row] = y;
-            if (!fixed) columns.moving.anchors.forget(row);
-        },
-        columns_);
-    ++revision_;
+    store().setPosition(slots_[entity.index], in.position);
 }
 
 void World::writeBody(Entity entity, const BoxCollider& in) {
-    const std::uint32_t slot = slots_[entity.index];
-    const std::uint32_t row = slot & ~staticBit;
-    std::visit(
-        [&]<class Real>(Columns<Real>& columns) {
-            const auto halfWidth = halfExtent<Real>(in.size.x());
-            const auto halfHeight = halfExtent<Real>(in.size.y());
-            if ((slot & staticBit) != 0) {
-                columns.fixed.halfWidth[row] = halfWidth;
-                columns.fixed.halfHeight[row] = halfHeight;
-            } else {
-                columns.moving.halfWidth.set(row, halfWidth);
-                columns.moving.halfHeight.set(row, halfHeight);
-            }
-        },
-        columns_);
-    ++revision_;
+    store().setHalfSize(slots_[entity.index], in.size / 2);
 }
 
 void World::writeBody(Entity entity, const PhysicsBody& in) {
-    const std::uint32_t slot = slots_[entity.index];
-    const std::uint32_t row = slot & ~staticBit;
-    if (in.isStatic != ((slot & staticBit) != 0)) {
+    const BodyRef body = slots_[entity.index];
+    if (in.isStatic != body.isStatic()) {
         // Static and moving bodies live in different columns: leave the one, join the other.
         dissolveBody(entity);
         pool<PhysicsBody>().put(entity, in);
         formBody(entity);
         return;
     }
-    if (in.isStatic) return;
-    std::visit(
-        [&]<class Real>(Columns<Real>& columns) {
-            const auto vx = toReal<Real>(in.velocity.x(), "velocity");
-            const auto vy = toReal<Real>(in.velocity.y(), "velocity");
-            const auto mass = toReal<Real>(in.mass, "mass", true);
-            columns.moving.vx[row] = vx;
-            columns.moving.vy[row] = vy;
-            columns.moving.mass.set(row, mass);
-            columns.moving.anchors.forget(row);
-        },
-        columns_);
-    ++revision_;
+    if (!in.isStatic) store().setVelocityAndMass(body.row(), in.velocity, in.mass);
 }
 
 std::size_t World::bytes() const {
@@ -481,16 +316,7 @@ std::size_t World::bytes() const {
     };
     const std::size_t entities =
         size(generations_) + size(slots_) + size(free_) + size(condemned_) + dead_.capacity() / 8;
-    return entities + std::visit(
-                          [&](const auto& columns) {
-                              const auto& m = columns.moving;
-                              const auto& f = columns.fixed;
-                              return size(m.x) + size(m.y) + size(m.vx) + size(m.vy) +
-                                     size(m.entity) + m.halfWidth.bytes() + m.halfHeight.bytes() +
-                                     m.mass.bytes() + m.anchors.bytes() + size(f.x) + size(f.y) +
-                                     size(f.halfWidth) + size(f.halfHeight) + size(f.entity);
-                          },
-                          columns_);
+    return entities + store().bytes();
 }
 
 }  // namespace quadrille

@@ -3,20 +3,29 @@
 #include <quadrille/device.hpp>
 #include <quadrille/error.hpp>
 
-#include "collision/cuda_resolver.hpp"
+#include "cuda/laws.hpp"
 
 namespace quadrille {
 
 CudaDevice findCudaDevice() { return {.name = {}, .reason = "this build has no CUDA"}; }
 
 template <class Real>
-std::unique_ptr<Resolver<Real>> makeCudaResolver(const SimulationConfig&, const ThreadTeam&) {
+std::unique_ptr<ContactLaw<Real>> makeCudaBaseline(const SimulationConfig&, const ThreadTeam&) {
     throw DeviceError("cuda: " + findCudaDevice().reason);
 }
 
-template std::unique_ptr<Resolver<double>> makeCudaResolver(const SimulationConfig&,
-                                                            const ThreadTeam&);
-template std::unique_ptr<Resolver<float>> makeCudaResolver(const SimulationConfig&,
-                                                           const ThreadTeam&);
+template <class Real>
+std::unique_ptr<ContactLaw<Real>> makeCudaImpulse(const SimulationConfig& config,
+                                                  const ThreadTeam& team) {
+    return makeCudaBaseline<Real>(config, team);
+}
+
+#define QUADRILLE_INSTANTIATE(Real)                                                      \
+    template std::unique_ptr<ContactLaw<Real>> makeCudaBaseline(const SimulationConfig&, \
+                                                                const ThreadTeam&);      \
+    template std::unique_ptr<ContactLaw<Real>> makeCudaImpulse(const SimulationConfig&,  \
+                                                               const ThreadTeam&);
+QUADRILLE_INSTANTIATE(double)
+QUADRILLE_INSTANTIATE(float)
 
 }  // namespace quadrille

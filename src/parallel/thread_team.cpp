@@ -145,8 +145,8 @@ struct ThreadTeam::Shared {
     std::vector<std::thread> threads;
 };
 
-ThreadTeam::ThreadTeam(unsigned threads, bool eager)
-    : threads_(std::max(1u, threads)), eager_(eager) {
+ThreadTeam::ThreadTeam(unsigned threads, const Thresholds& thresholds)
+    : threads_(std::max(1u, threads)), thresholds_(thresholds) {
     if (threads_ > 1) shared_ = std::make_unique<Shared>(threads_);
 }
 

@@ -25,10 +25,10 @@ struct Collision {
 class GoldenRun {
   public:
     GoldenRun(const Golden& golden, const SimulationConfig& config)
-        : scene_(loadScene(std::string(QUADRILLE_TEST_DATA) + "/golden/" + golden.name + ".toml")),
+        : scene_(loadScene(QUADRILLE_TEST_DATA "/golden/" + golden.name + ".toml")),
           sim_(std::move(scene_.world), config) {
         sim_.onContact([this](const Contact& c) {
-            collisions_.push_back({c.time, c.rowA, c.rowB, static_cast<int>(c.axis)});
+            collisions_.push_back({c.time, c.numberA, c.numberB, static_cast<int>(c.axis)});
         });
     }
 
@@ -76,13 +76,14 @@ class GoldenRun {
 
 void compare(const Golden& golden, double dt, const PartitionerConfig& partitioner, double until,
              int threads = 0) {
-    SCOPED_TRACE(golden.name + ", dt " + std::to_string(dt) + ", " + name(partitioner));
+    SCOPED_TRACE(golden.name + ", dt " + std::to_string(dt) + ", " +
+                 std::string(name(partitioner)));
     GoldenRun run(golden,
                   {.partitioner = partitioner,
                    .law = Law::Continuous,
                    .resolver = threads > 0 ? ResolverKind::Threads : ResolverKind::Sequential,
                    .threads = threads,
-                   .dt = dt});
+                   .step = {.dt = dt}});
     for (const auto& state : golden.states) {
         // dense1600_t0.05 lies between two steps.
         if (state.label == "0.05" || state.time > until) continue;

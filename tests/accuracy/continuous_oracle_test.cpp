@@ -46,8 +46,7 @@ void compareWithOracle(std::uint64_t seed, const Vec2& gravity, double restituti
     }
     Simulation sim(std::move(world), {.partitioner = Quadtree{8, 6},
                                       .law = Law::Continuous,
-                                      .gravity = gravity,
-                                      .restitution = restitution});
+                                      .step = {.gravity = gravity, .restitution = restitution}});
     std::vector<Contact> contacts;
     sim.onContact([&](const Contact& c) { contacts.push_back(c); });
     const double energy = totalEnergy(sim.world(), gravity);
@@ -61,8 +60,8 @@ void compareWithOracle(std::uint64_t seed, const Vec2& gravity, double restituti
     for (std::size_t k = 0; k < events.size(); ++k) {
         SCOPED_TRACE("event " + std::to_string(k));
         ASSERT_NEAR(contacts[k].time, events[k].time, 1e-9);
-        ASSERT_EQ(contacts[k].rowA, events[k].i);
-        ASSERT_EQ(contacts[k].rowB, events[k].j);
+        ASSERT_EQ(contacts[k].numberA, events[k].i);
+        ASSERT_EQ(contacts[k].numberB, events[k].j);
         ASSERT_EQ(static_cast<int>(contacts[k].axis), events[k].axis);
     }
     if (restitution == 1) {

@@ -22,21 +22,21 @@ Simulation pile(const SimulationConfig& asked) {
     Scene scene = loadScene(std::filesystem::path(QUADRILLE_SCENES_DIR) / "pile.toml");
     SimulationConfig config = asked;
     config.law = Law::Continuous;
-    config.gravity = scene.step.gravity;
-    config.restitution = scene.step.restitution;
+    config.step.gravity = scene.step.gravity;
+    config.step.restitution = scene.step.restitution;
     return Simulation(std::move(scene.world), config);
 }
 
 Simulation drop(const std::vector<Body>& bodies, double restitution) {
     return accuracy::simulate({Law::Continuous, Precision::Double}, bodies,
-                              {.gravity = {0, -200}, .restitution = restitution});
+                              {.step = {.gravity = {0, -200}, .restitution = restitution}});
 }
 
 const Body ground{{0, -5}, {0, 0}, {100, 10}, 1, true};
 
 TEST(ContinuousPile, ComesDownWithoutOverlapOrGainOfEnergy) {
     Simulation sim = pile({});
-    const Vec2 gravity = sim.config().gravity;
+    const Vec2 gravity = sim.config().step.gravity;
     double energy = totalEnergy(sim.world(), gravity);
     for (int i = 0; i < 30; ++i) {
         sim.run(20);
@@ -60,7 +60,7 @@ TEST(ContinuousPile, SameBitsWhateverTheStepAndThePartitioner) {
         sim.run(180);
         const std::uint64_t hash = stateHash(sim.world());
         for (const int perSecond : {16, 240}) {
-            Simulation other = pile({.precision = precision, .dt = 1.0 / perSecond});
+            Simulation other = pile({.precision = precision, .step = {.dt = 1.0 / perSecond}});
             other.run(static_cast<std::uint64_t>(3 * perSecond));
             EXPECT_EQ(stateHash(other.world()), hash) << perSecond;
         }
@@ -132,8 +132,8 @@ TEST(ContinuousPile, ARowAgainstAWallIsStruckAsOne) {
     std::vector<Body> bodies{{{55, 0}, {0, 0}, {10, 100}, 1, true}};
     for (int i = 0; i < 20; ++i) bodies.push_back({{49.5 - i, 0}, {0, 0}});
     bodies.push_back({{0, 0}, {40, 0}});
-    Simulation sim =
-        accuracy::simulate({Law::Continuous, Precision::Double}, bodies, {.restitution = 0.5});
+    Simulation sim = accuracy::simulate({Law::Continuous, Precision::Double}, bodies,
+                                        {.step = {.restitution = 0.5}});
     std::uint64_t contacts = 0;
     sim.onStep([&](const World&, const StepReport& report) { contacts += report.contacts; });
     sim.run(120);
@@ -146,8 +146,8 @@ TEST(ContinuousPile, AFreeRowIsStruckAsOne) {
     std::vector<Body> bodies;
     for (int i = 0; i < 5; ++i) bodies.push_back({{1.0 * i, 0}, {0, 0}});
     bodies.push_back({{-10, 0}, {6, 0}});
-    Simulation sim =
-        accuracy::simulate({Law::Continuous, Precision::Double}, bodies, {.restitution = 0.5});
+    Simulation sim = accuracy::simulate({Law::Continuous, Precision::Double}, bodies,
+                                        {.step = {.restitution = 0.5}});
     sim.run(240);
     // m v = 6 and v_row - v_striker = 3, with masses 5 and 1.
     for (std::uint32_t i = 0; i < 5; ++i) EXPECT_NEAR(velocity(sim, i).x(), 1.5, 1e-14) << i;

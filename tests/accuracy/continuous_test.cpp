@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include <quadrille/state_hash.hpp>
+
 #include "hard_cases/hard_case.hpp"
 
 // What the law `continuous` promises beyond the table of hard cases.
@@ -13,7 +15,7 @@ using accuracy::Body;
 using accuracy::velocity;
 
 Simulation simulate(const std::vector<Body>& bodies, double dt = 1.0 / 60) {
-    return accuracy::simulate({Law::Continuous, Precision::Double}, bodies, {.dt = dt});
+    return accuracy::simulate({Law::Continuous, Precision::Double}, bodies, {.step = {.dt = dt}});
 }
 
 TEST(Continuous, BulletMeetsTheThinWallWhateverTheStep) {
@@ -59,7 +61,7 @@ TEST(Continuous, GoesOnFromASnapshotBitForBit) {
         Simulation second(std::move(snapshot.world), {.partitioner = StaticGrid{},
                                                       .law = snapshot.law,
                                                       .precision = precision,
-                                                      .dt = snapshot.step.dt});
+                                                      .step = {.dt = snapshot.step.dt}});
         second.resumeAt(snapshot.stepsDone);
         second.run(250);
         EXPECT_EQ(stateHash(second.world()), stateHash(whole.world()));

@@ -26,7 +26,8 @@ Vec2 residualOf(World world, const SimulationConfig& config, int steps) {
     Simulation sim(std::move(world), config);
     VirialBalance balance(sim.world());
     sim.onContact([&](const Contact& contact) { balance.collide(contact); });
-    sim.onStep([&](const World& now, const StepReport&) { balance.finishStep(now, config.dt); });
+    sim.onStep(
+        [&](const World& now, const StepReport&) { balance.finishStep(now, config.step.dt); });
     sim.run(std::uint64_t(steps));
     return balance.residual();
 }
@@ -34,21 +35,22 @@ Vec2 residualOf(World world, const SimulationConfig& config, int steps) {
 TEST(VirialBalance, FreeFlightBalances) {
     World world({.size = {10, 10}});
     makeBox(world, {1, 2}, moving(3, -1, 2), {1, 1});
-    const Vec2 residual = residualOf(std::move(world), {.dt = 1.0 / 64}, 64);
+    const Vec2 residual = residualOf(std::move(world), {.step = {.dt = 1.0 / 64}}, 64);
     EXPECT_EQ(residual.x(), 0);
     EXPECT_EQ(residual.y(), 0);
 }
 
 TEST(VirialBalance, WallsPushBack) {
     for (const Law law : {Law::Impulse, Law::Continuous}) {
-        const Vec2 residual = residualOf(between(), {.law = law, .dt = 1.0 / 64}, 64 * 20);
+        const Vec2 residual =
+            residualOf(between(), {.law = law, .step = {.dt = 1.0 / 64}}, 64 * 20);
         EXPECT_EQ(residual.x(), 0);
         EXPECT_EQ(residual.y(), 0);
     }
 }
 
 TEST(VirialBalance, AHitThatIsNotReportedIsMissing) {
-    Simulation sim(between(), {.dt = 1.0 / 64});
+    Simulation sim(between(), {.step = {.dt = 1.0 / 64}});
     VirialBalance balance(sim.world());
     sim.onStep([&](const World& now, const StepReport&) { balance.finishStep(now, 1.0 / 64); });
     sim.run(64 * 5);

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -22,10 +23,7 @@ const Arguments imbalanced = {"--headless", "--scene", "imbalanced", "--frames",
 
 Simulation imbalancedRun(Precision precision = Precision::Double) {
     Scene scene = loadScene(shippedScene("imbalanced"));
-    return Simulation(std::move(scene.world), {.precision = precision,
-                                               .dt = scene.step.dt,
-                                               .gravity = scene.step.gravity,
-                                               .restitution = scene.step.restitution});
+    return Simulation(std::move(scene.world), {.precision = precision, .step = scene.step});
 }
 
 template <class Real>
@@ -81,7 +79,8 @@ TEST_F(Dump, EventsAreTheCollisionsOfTheLibrary) {
         runProgram(imbalanced + Arguments{"--dump-events", file("events.csv"), "--json", "-"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     const Table table = parseTable(contentOf(path("events.csv")));
-    ASSERT_EQ(table.columns, (std::vector<std::string>{"t", "i", "j", "axis"}));
+    ASSERT_EQ(table.columns, (std::vector<std::string>{"t", "i", "j", "axis", "impulse_x",
+                                                       "impulse_y", "approach_x", "approach_y"}));
 
     Simulation sim = imbalancedRun();
     std::vector<Contact> collisions;
@@ -97,12 +96,16 @@ TEST_F(Dump, EventsAreTheCollisionsOfTheLibrary) {
     bool withStatic = false;
     for (std::size_t k = 0; k < collisions.size(); ++k) {
         const auto& row = table.rows[k];
-        ASSERT_EQ(row.size(), 4u);
+        ASSERT_EQ(row.size(), 8u);
         ASSERT_EQ(numberOf(row[0]), collisions[k].time) << "event " << k;
-        ASSERT_EQ(row[1], std::to_string(collisions[k].rowA)) << "event " << k;
-        ASSERT_EQ(row[2], std::to_string(collisions[k].rowB)) << "event " << k;
+        ASSERT_EQ(row[1], std::to_string(collisions[k].numberA)) << "event " << k;
+        ASSERT_EQ(row[2], std::to_string(collisions[k].numberB)) << "event " << k;
         ASSERT_EQ(row[3], std::to_string(int(collisions[k].axis))) << "event " << k;
-        withStatic = withStatic || collisions[k].rowB < 0;
+        ASSERT_EQ(numberOf(row[4]), collisions[k].impulse.x()) << "event " << k;
+        ASSERT_EQ(numberOf(row[5]), collisions[k].impulse.y()) << "event " << k;
+        ASSERT_EQ(numberOf(row[6]), collisions[k].approach.x()) << "event " << k;
+        ASSERT_EQ(numberOf(row[7]), collisions[k].approach.y()) << "event " << k;
+        withStatic = withStatic || collisions[k].numberB < 0;
     }
     EXPECT_TRUE(withStatic);
 }

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include <quadrille/device.hpp>
@@ -38,7 +39,7 @@ TEST_P(Fallback, IsNamedInEveryOutput) {
     EXPECT_EQ(summary["requested_resolver"], GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda", "cuda-resident"),
+INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda"),
                          [](const auto& test) { return identifier(test.param); });
 
 class NoDevice : public testing::TestWithParam<std::string> {};
@@ -48,7 +49,7 @@ TEST_P(NoDevice, IsAnErrorWithoutFallback) {
     expectRefusal(cradle + Arguments{"--resolver", GetParam(), "--no-fallback"}, 4, {GetParam()});
 }
 
-INSTANTIATE_TEST_SUITE_P(Resolver, NoDevice, testing::Values("cuda", "cuda-resident"),
+INSTANTIATE_TEST_SUITE_P(Resolver, NoDevice, testing::Values("cuda"),
                          [](const auto& test) { return identifier(test.param); });
 
 TEST(Resolver, AutoNeedsNoFallback) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -97,9 +98,7 @@ TEST_F(Summary, JsonSaysWhatWasAskedFor) {
 TEST_F(Summary, JsonAgreesWithTheLibrary) {
     const Json s = summaryOf({"--scene", "imbalanced", "--frames", "20", "--entities", "100"});
     Scene scene = loadScene(shippedScene("imbalanced"), {.entities = 100});
-    Simulation sim(std::move(scene.world), {.dt = scene.step.dt,
-                                            .gravity = scene.step.gravity,
-                                            .restitution = scene.step.restitution});
+    Simulation sim(std::move(scene.world), {.step = scene.step});
     EXPECT_EQ(s["dt"], scene.step.dt);
     EXPECT_EQ(s["seed"], scene.seed);
     EXPECT_EQ(s["kinetic_energy"]["start"], kineticEnergy(sim.world()));
@@ -121,7 +120,7 @@ TEST_F(Summary, JsonAgreesWithTheLibrary) {
     EXPECT_EQ(s["momentum"]["end"], (Json{momentum(sim.world()).x(), momentum(sim.world()).y()}));
     EXPECT_EQ(s["max_overlap"], overlap(sim.world()).max);
     EXPECT_EQ(s["escaped"], escaped(sim.world()));
-    const CellLoad cells = load(sim.cells());
+    const CellLoad cells = loadOf(sim.cells());
     EXPECT_EQ(s["cells"], cells.cells);
     EXPECT_EQ(s["active_cells"], cells.activeCells);
     EXPECT_EQ(s["max_bodies_per_cell"], cells.maxBodies);

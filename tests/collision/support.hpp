@@ -41,11 +41,8 @@ inline Scene shippedScene(const std::string& name, std::optional<std::uint64_t> 
 /// A simulation of a scene with the scene's own step settings.
 inline Simulation simulationOf(Scene scene, const PartitionerConfig& partitioner,
                                Precision precision = Precision::Double) {
-    return Simulation(std::move(scene.world), {.partitioner = partitioner,
-                                               .precision = precision,
-                                               .dt = scene.step.dt,
-                                               .gravity = scene.step.gravity,
-                                               .restitution = scene.step.restitution});
+    return Simulation(std::move(scene.world),
+                      {.partitioner = partitioner, .precision = precision, .step = scene.step});
 }
 
 }  // namespace quadrille

@@ -6,23 +6,27 @@
 #include <tuple>
 #include <utility>
 
-#include <quadrille/measure.hpp>
+#include <quadrille/state_hash.hpp>
 
-#include "core/stepper.hpp"
+#include "core/step_times.hpp"
+#include "core/world_access.hpp"
+#include "engines/host_engine.hpp"
 
 namespace quadrille {
 
 namespace {
 
 auto keysOf(const ContactRecord& r) {
-    return std::tuple(r.time, r.a, r.b, r.axes, r.senseX, r.senseY, r.collided);
+    return std::tuple(r.time, r.a, r.b.bits, r.axes, r.senseX, r.senseY, r.collided, r.impulseX,
+                      r.impulseY, r.approachX, r.approachY);
 }
 
 /// All that a step shows of itself.
 struct Seen {
     std::uint64_t hash, contacts, collisions, pairsTested;
     bool rebuilt;
-    std::vector<std::uint32_t> offsets, bodies;
+    std::vector<std::uint32_t> offsets;
+    std::vector<BodyRef> bodies;
     std::vector<ContactRecord> records;
 };
 
@@ -44,21 +48,30 @@ template <class Real>
 std::vector<Seen> stepsOf(World world, const SimulationConfig& config, std::uint64_t steps,
                           bool record, const std::function<void(World&, std::uint64_t)>& edit) {
     world.setPrecision(config.precision);
-    Stepper<Real> stepper(config, world.config().size, true);
+    HostEngine<Real> engine(config, world.config().size, Thresholds::none());
+    const StepTimes times(config.step.dt);
     std::vector<Seen> result;
     for (std::uint64_t number = 1; number <= steps; ++number) {
         edit(world, number);
         world.flush();
         StepReport report;
         Seen seen{};
-        stepper.step(world, number, record ? &seen.records : nullptr, report, false);
+        StepWindow window{.number = number,
+                          .from = times.at(number - 1),
+                          .to = times.at(number),
+                          .keepContacts = record};
+        engine.step(WorldAccess::store(world), window, report);
+        if (record) {
+            const auto contacts = engine.contacts();
+            seen.records.assign(contacts.begin(), contacts.end());
+        }
         seen.hash = stateHash(world);
         seen.contacts = report.contacts;
         seen.collisions = report.collisions;
         seen.pairsTested = report.pairsTested;
         seen.rebuilt = report.rebuilt;
-        seen.offsets = stepper.cells().offsets;
-        seen.bodies = stepper.cells().bodies;
+        seen.offsets = engine.cells().offsets;
+        seen.bodies = engine.cells().bodies;
         result.push_back(std::move(seen));
     }
     return result;

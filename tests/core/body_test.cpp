@@ -6,8 +6,7 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
-#include <quadrille/detail/column.hpp>
-#include <quadrille/measure.hpp>
+#include <quadrille/state_hash.hpp>
 #include <quadrille/world.hpp>
 
 #include "support.hpp"
@@ -129,44 +128,6 @@ TEST(Body, SwitchesBetweenStaticAndMoving) {
     EXPECT_EQ(world.get<BoxCollider>(e).size, Vec2(7, 8));
     EXPECT_EQ(world.get<PhysicsBody>(e).velocity, Vec2(2, 3));
     EXPECT_EQ(world.get<PhysicsBody>(e).mass, 4);
-}
-
-// ---- columns
-
-TEST(Column, StaysOneNumberWhileAllRowsAgree) {
-    Column<double> column;
-    for (int i = 0; i < 100; ++i) column.push_back(3);
-    column.set(50, 3);
-    EXPECT_TRUE(column.view().uniform());
-    EXPECT_EQ(column.view().common, 3);
-    EXPECT_EQ(column.size(), 100u);
-    EXPECT_EQ(column.bytes(), 0u);
-    column.shrink(0);
-    column.push_back(8);
-    EXPECT_TRUE(column.view().uniform());
-    EXPECT_EQ(column[0], 8);
-}
-
-TEST(Column, ExpandsAtTheFirstValueThatDiffers) {
-    Column<double> pushed;
-    for (const double value : {3, 3, 4, 3}) pushed.push_back(value);
-    Column<double> set;
-    for (int i = 0; i < 4; ++i) set.push_back(3);
-    set.set(2, 4);
-    for (const auto* column : {&pushed, &set}) {
-        const auto view = column->view();
-        ASSERT_FALSE(view.uniform());
-        ASSERT_EQ(view.values.size(), 4u);
-        EXPECT_EQ(column->size(), 4u);
-        for (const std::size_t row : {0u, 1u, 3u}) EXPECT_EQ(view[row], 3);
-        EXPECT_EQ(view[2], 4);
-        EXPECT_EQ((*column)[2], 4);
-    }
-    pushed.move(2, 0);
-    pushed.shrink(2);
-    EXPECT_EQ(pushed.size(), 2u);
-    EXPECT_EQ(pushed[0], 4);
-    EXPECT_EQ(pushed[1], 3);
 }
 
 TEST(Body, SizesAndMassesThatAllShareAreOneNumberUntilOneDiffers) {

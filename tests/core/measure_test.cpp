@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <quadrille/measure.hpp>
+#include <quadrille/names.hpp>
 #include <quadrille/simulation.hpp>
+#include <quadrille/state_hash.hpp>
 #include <quadrille/world.hpp>
 
 #include "support.hpp"

@@ -97,8 +97,8 @@ TEST(Reconfigure, ChangesGravityRestitutionAndWhatIsMeasured) {
     Simulation sim(crowd(9), configOf(Law::Impulse));
     sim.run(5);
     SimulationConfig next = sim.config();
-    next.gravity = {0, -50};
-    next.restitution = 0.5;
+    next.step.gravity = {0, -50};
+    next.step.restitution = 0.5;
     next.profile = true;
     next.countMissedPairs = true;
     next.partitioner = SemiStaticQuadtree{.rebuild = SemiStaticQuadtree::EveryFrames{1000}};
@@ -126,10 +126,10 @@ TEST(Reconfigure, RefusesWhatCannotChangeOrRunAndKeepsTheOld) {
         change(next);
         EXPECT_THROW(sim.reconfigure(next), Error);
     };
-    refuse([](auto& c) { c.dt *= 2; });
+    refuse([](auto& c) { c.step.dt *= 2; });
     refuse([](auto& c) { c.precision = Precision::Float; });
-    refuse([](auto& c) { c.restitution = 2; });
-    refuse([](auto& c) { c.gravity.x() = nan; });
+    refuse([](auto& c) { c.step.restitution = 2; });
+    refuse([](auto& c) { c.step.gravity.x() = nan; });
     refuse([](auto& c) { c.partitioner = StaticGrid{{-1, 1}}; });
     refuse([](auto& c) {
         c.partitioner = SemiStaticQuadtree{.rebuild = SemiStaticQuadtree::EveryFrames{10}};

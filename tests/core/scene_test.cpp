@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <quadrille/measure.hpp>
 #include <quadrille/scene.hpp>
+#include <quadrille/state_hash.hpp>
 
 #include "support.hpp"
 
@@ -42,7 +42,7 @@ class SceneFile : public testing::Test {
 
 std::vector<Vec2> movingPositions(const World& world) {
     std::vector<Vec2> result;
-    const auto m = const_cast<World&>(world).bodies<double>().moving;
+    const auto m = world.bodies<double>().moving;
     for (std::size_t i = 0; i < m.size(); ++i) result.emplace_back(m.x[i], m.y[i]);
     return result;
 }

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <quadrille/measure.hpp>
 #include <quadrille/simulation.hpp>
+#include <quadrille/state_hash.hpp>
 
 #include "support.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double dt = 1.0 / 64;  // exact, and so are the positions of the small cases below
 constexpr double speed = 64;
 
-SimulationConfig config() { return {.dt = dt}; }
+SimulationConfig config() { return {.step = {.dt = dt}}; }
 
 PhysicsBody moving(double vx, double vy = 0) { return {.velocity = {vx, vy}}; }
 PhysicsBody fixed() { return {.isStatic = true}; }
@@ -51,7 +51,7 @@ TEST(Simulation, MovesBodiesByVelocityAndGravity) {
     World world;
     const Entity e = makeBox(world, {0, 0}, moving(64, 32));
     SimulationConfig c = config();
-    c.gravity = {0, -64};
+    c.step.gravity = {0, -64};
     Simulation sim(std::move(world), c);
     sim.step();
     EXPECT_EQ(sim.world().get<PhysicsBody>(e).velocity, Vec2(64, 31));
@@ -90,8 +90,8 @@ TEST(Contacts, WithAStaticBody) {
     EXPECT_EQ(c.axis, Axis::X);
     EXPECT_EQ(c.normal, Vec2(1, 0));
     EXPECT_TRUE(c.collided);
-    EXPECT_EQ(c.rowA, 1);
-    EXPECT_EQ(c.rowB, -1 - 1);
+    EXPECT_EQ(c.numberA, 1);
+    EXPECT_EQ(c.numberB, -1 - 1);
     EXPECT_EQ(sim.world().get<Transform>(ball).position, Vec2(0, 0));
     EXPECT_EQ(sim.world().get<PhysicsBody>(ball).velocity, Vec2(-speed, 0));
 }
@@ -106,8 +106,8 @@ TEST(Contacts, OfMovingBodiesPutTheOneCreatedFirstFirst) {
     ASSERT_EQ(contacts.size(), 1u);
     EXPECT_EQ(contacts[0].a, upper);
     EXPECT_EQ(contacts[0].b, lower);
-    EXPECT_EQ(contacts[0].rowA, 1);
-    EXPECT_EQ(contacts[0].rowB, 2);
+    EXPECT_EQ(contacts[0].numberA, 1);
+    EXPECT_EQ(contacts[0].numberB, 2);
     EXPECT_EQ(contacts[0].axis, Axis::Y);
     EXPECT_EQ(contacts[0].normal, Vec2(0, -1));
     EXPECT_EQ(contacts[0].time, dt / 2);
@@ -238,13 +238,13 @@ TEST(Callbacks, DestroyingInAListenerEqualsDestroyingBetweenSteps) {
     Simulation inside(crowd(), config());
     Simulation between(crowd(), config());
     inside.onContact([&](const Contact& c) {
-        if (c.rowB >= 0 && c.b.index % 3 == 0 && inside.world().alive(c.b)) {
+        if (c.numberB >= 0 && c.b.index % 3 == 0 && inside.world().alive(c.b)) {
             inside.world().destroy(c.b);
         }
     });
     std::vector<Entity> condemned;
     between.onContact([&](const Contact& c) {
-        if (c.rowB >= 0 && c.b.index % 3 == 0) condemned.push_back(c.b);
+        if (c.numberB >= 0 && c.b.index % 3 == 0) condemned.push_back(c.b);
     });
     for (int i = 0; i < 30; ++i) {
         inside.step();

@@ -12,6 +12,7 @@
 
 #include <quadrille/components.hpp>
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 

@@ -29,6 +29,7 @@ struct Case {
     // out
     Impact<Real> impact;
     AxisState<Real> a, b, againstStatic;
+    AxisOutcome<Real> outcome, outcomeStatic;
     std::uint32_t priority;
 };
 
@@ -38,11 +39,12 @@ QUADRILLE_HD void apply(Case<Real>& c) {
         impactOf(c.xb - c.xa, c.yb - c.ya, c.vxb - c.vxa, c.vyb - c.vya, c.reachX, c.reachY, c.dt);
     c.a = {c.xa, c.vxa};
     c.b = {c.xb, c.vxb};
-    collide(c.a, c.b, c.massA, c.massB, c.restitution, c.reachX, Real(c.impact.senseX),
-            c.impact.since, c.impact.overlapBefore);
+    c.outcome = collide(c.a, c.b, c.massA, c.massB, c.restitution, c.reachX, Real(c.impact.senseX),
+                        c.impact.since, c.impact.overlapBefore);
     c.againstStatic = {c.ya, c.vya};
-    collideStatic(c.againstStatic, c.yb, c.restitution, c.reachY, Real(c.impact.senseY),
-                  c.impact.since, c.impact.overlapBefore, c.gravity);
+    c.outcomeStatic =
+        collideStatic(c.againstStatic, c.massA, c.yb, c.restitution, c.reachY,
+                      Real(c.impact.senseY), c.impact.since, c.impact.overlapBefore, c.gravity);
     c.priority = pairPriority(static_cast<std::uint32_t>(c.xa * 1000), 17u);
 }
 
@@ -100,6 +102,12 @@ void compareHostAndDevice(std::uint64_t seed) {
         ASSERT_TRUE(same(h.b.position, d.b.position) && same(h.b.velocity, d.b.velocity));
         ASSERT_TRUE(same(h.againstStatic.position, d.againstStatic.position));
         ASSERT_TRUE(same(h.againstStatic.velocity, d.againstStatic.velocity));
+        const auto sameOutcome = [&](const AxisOutcome<Real>& p, const AxisOutcome<Real>& q) {
+            return p.collided == q.collided && same(p.impulse, q.impulse) &&
+                   same(p.approach, q.approach);
+        };
+        ASSERT_TRUE(sameOutcome(h.outcome, d.outcome));
+        ASSERT_TRUE(sameOutcome(h.outcomeStatic, d.outcomeStatic));
         ASSERT_EQ(h.priority, d.priority);
     }
 }

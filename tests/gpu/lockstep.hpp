@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include <quadrille/simulation.hpp>
 
@@ -12,9 +13,12 @@ using MakeWorld = std::function<World()>;
 /// Changes a world before a step.
 using Edit = std::function<void(World&, std::uint64_t step)>;
 
-/// Runs the resolvers `cuda` and `sequential` side by side with a listener each, and expects the
+/// Expects the same contacts in the same order, to the last bit of what they exchanged.
+void expectSameContacts(std::span<const Contact> found, std::span<const Contact> expected);
+
+/// Runs the resolvers `cuda` and `sequential` side by side, both keeping contacts, and expects the
 /// same state, the same counts and the same contacts in the same order after every step; and the
-/// same state from `cuda` without a listener. Returns the number of contacts.
+/// same state from `cuda` without contacts kept. Returns the number of contacts.
 std::uint64_t expectLockstep(const MakeWorld& makeWorld, const SimulationConfig& config,
                              std::uint64_t steps, const Edit& edit = {});
 

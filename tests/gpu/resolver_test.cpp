@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
-#include <quadrille/measure.hpp>
+#include <quadrille/state_hash.hpp>
 
 #include "collision/support.hpp"
 #include "device.hpp"
@@ -73,6 +73,29 @@ TEST(CudaResolver, FollowsAChangeOfPartitioner) {
         device.run(15);
         host.run(15);
         EXPECT_EQ(stateHash(device.world()), stateHash(host.world()));
+    }
+}
+
+TEST(CudaResolver, KeepsContactsOnlyWhileSomebodyListens) {
+    QUADRILLE_NEEDS_DEVICE();
+    for (const Law law : {Law::Impulse, Law::Baseline}) {
+        Simulation host(someBoxes(600), {.law = law, .keepContacts = true});
+        Simulation device(someBoxes(600), {.law = law, .resolver = ResolverKind::Cuda});
+        std::vector<Contact> heard;
+        for (std::uint64_t step = 0; step < 24; ++step) {
+            SCOPED_TRACE("step " + std::to_string(step));
+            heard.clear();
+            Subscription listener;
+            const bool listens = step / 3 % 2 == 1;
+            if (listens) {
+                listener = device.onContact([&](const Contact& c) { heard.push_back(c); });
+            }
+            host.step();
+            device.step();
+            listener.remove();
+            if (listens) expectSameContacts(heard, host.contacts());
+            EXPECT_EQ(stateHash(device.world()), stateHash(host.world()));
+        }
     }
 }
 

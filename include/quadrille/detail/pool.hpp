@@ -3,10 +3,14 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
 #include <quadrille/entity.hpp>
+#include <quadrille/error.hpp>
 
 namespace quadrille {
 
@@ -16,6 +20,9 @@ namespace quadrille {
 class PoolBase {
   public:
     virtual ~PoolBase() = default;
+
+    /// Throws Error if the components cannot be copied.
+    virtual std::unique_ptr<PoolBase> clone() const = 0;
 
     bool contains(std::uint32_t index) const {
         return index < sparse_.size() && sparse_[index] != Entity::none;
@@ -35,6 +42,9 @@ class PoolBase {
     }
 
   protected:
+    PoolBase() = default;
+    PoolBase(const PoolBase&) = default;
+
     /// Removes row `row` of the values by moving the last one into it.
     virtual void swapOut(std::uint32_t row) = 0;
 
@@ -61,6 +71,15 @@ class Pool final : public PoolBase {
     }
     C& operator[](std::uint32_t index) { return values_[row(index)]; }
     const C& operator[](std::uint32_t index) const { return values_[row(index)]; }
+
+    std::unique_ptr<PoolBase> clone() const override {
+        if constexpr (std::is_copy_constructible_v<C>) {
+            return std::make_unique<Pool>(*this);
+        } else {
+            throw Error(std::string("components of type ") + typeid(C).name() +
+                        " cannot be copied");
+        }
+    }
 
   private:
     void swapOut(std::uint32_t row) override {

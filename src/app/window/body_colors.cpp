@@ -32,13 +32,12 @@ void colorBySpeed(const BodyView<Real>& bodies, std::span<Color> colors) {
     }
 }
 
-void colorByCell(const Cells& cells, std::size_t fixed, std::size_t moving,
-                 std::span<Color> colors) {
+void colorByCell(const Cells& cells, std::size_t fixed, std::span<Color> colors) {
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const Color color = cellColor(cells.coordinates[c]);
-        for (const std::uint32_t body : cells[c]) {
-            if (body >= moving) continue;  // walls stand in many cells and keep their colour
-            Color& out = colors[fixed + body];
+        for (const BodyRef body : cells[c]) {
+            if (body.isStatic()) continue;  // walls stand in many cells and keep their colour
+            Color& out = colors[fixed + body.row()];
             out = {color.r, color.g, color.b, out.a};
         }
     }
@@ -85,7 +84,7 @@ std::span<const Color> BodyColors::update(const Simulation& simulation, ColorBy 
         if (colorBy == ColorBy::Speed) {
             colorBySpeed(bodies, colors_);
         } else {
-            colorByCell(simulation.cells(), bodies.fixed.size(), bodies.moving.size(), colors_);
+            colorByCell(simulation.cells(), bodies.fixed.size(), colors_);
         }
     });
     return colors_;

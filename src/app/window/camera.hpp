@@ -1,6 +1,6 @@
 #pragma once
 
-#include <quadrille/partitioner_config.hpp>
+#include <quadrille/cells.hpp>
 #include <quadrille/vec2.hpp>
 
 namespace quadrille::app {

@@ -92,7 +92,7 @@ CellLayer::CellLayer()
 
 void CellLayer::prepare(const Cells& cells) {
     constexpr std::uint8_t heatAlpha = 200;
-    const std::size_t most = load(cells).maxBodies;
+    const std::size_t most = loadOf(cells).maxBodies;
     std::vector<CellInstance> instances;
     instances.reserve(cells.size() + 2);
     origin_ = cells.origin;

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include <quadrille/partitioner_config.hpp>
+#include <quadrille/cells.hpp>
 
 #include "app/window/gl_objects.hpp"
 #include "app/window/viewport.hpp"

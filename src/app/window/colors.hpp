@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include <quadrille/cell_coordinates.hpp>
 #include <quadrille/components.hpp>
-#include <quadrille/partitioner_config.hpp>
 
 namespace quadrille::app {
 

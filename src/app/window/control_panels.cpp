@@ -1,8 +1,13 @@
 #include <array>
 #include <imgui.h>
 #include <iterator>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
+
+#include <quadrille/names.hpp>
 
 #include "app/window/panels.hpp"
 #include "app/window/text.hpp"
@@ -25,6 +30,25 @@ bool choose(const char* label, int& chosen, const Names& names) {
     }
     ImGui::EndCombo();
     return changed;
+}
+
+/// The same for things with names.
+template <class Kind>
+bool choose(const char* label, std::size_t& chosen, std::span<const Named<Kind>> all) {
+    std::vector<std::string_view> names;
+    for (const Named<Kind>& named : all) names.push_back(named.name);
+    auto i = int(chosen);
+    if (!choose(label, i, names)) return false;
+    chosen = std::size_t(i);
+    return true;
+}
+template <class Kind>
+bool chooseKind(const char* label, Kind& kind, std::span<const Named<Kind>> all) {
+    std::size_t i = 0;
+    while (i < all.size() && all[i].kind != kind) ++i;
+    if (!choose(label, i, all)) return false;
+    kind = all[i].kind;
+    return true;
 }
 
 bool dragInt(const char* label, int& value, float perPixel, int least, int most) {
@@ -111,30 +135,15 @@ void showRunPanel(const PanelContext& context) {
 void showCollisionsPanel(const PanelContext& context) {
     if (!sectionHeader("Collisions")) return;
     SimulationConfig next = context.bench.config();
-    static constexpr std::array partitioners = {"brute force", "static grid", "quadtree",
-                                                "semi-static quadtree"};
-    auto partitioner = int(next.partitioner.index());
-    bool changed = choose("partitioner", partitioner, partitioners);
+    auto partitioner = next.partitioner.index();
+    bool changed = choose("partitioner", partitioner, partitioners());
     if (changed) {
-        const PartitionerConfig fresh[] = {BruteForce{}, StaticGrid{}, Quadtree{},
-                                           SemiStaticQuadtree{}};
-        next.partitioner = fresh[partitioner];
+        next.partitioner = partitioners()[partitioner].kind;
     } else {
         changed = editParameters(next.partitioner);
     }
-    auto law = int(next.law);
-    const std::array laws = {name(Law::Baseline), name(Law::Impulse), name(Law::Continuous)};
-    if (choose("contact law", law, laws)) {
-        next.law = static_cast<Law>(law);
-        changed = true;
-    }
-    auto resolver = int(next.resolver);
-    const std::array resolvers = {name(ResolverKind::Sequential), name(ResolverKind::Threads),
-                                  name(ResolverKind::Cuda), name(ResolverKind::CudaResident)};
-    if (choose("resolver", resolver, resolvers)) {
-        next.resolver = static_cast<ResolverKind>(resolver);
-        changed = true;
-    }
+    changed = chooseKind("contact law", next.law, laws()) || changed;
+    changed = chooseKind("resolver", next.resolver, resolvers()) || changed;
     if (changed) context.bench.reconfigure(std::move(next));
 }
 

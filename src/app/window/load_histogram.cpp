@@ -6,7 +6,7 @@ namespace quadrille::app {
 
 LoadHistogram loadHistogram(const Cells& cells) {
     LoadHistogram result;
-    const std::size_t mostBodies = load(cells).maxBodies;
+    const std::size_t mostBodies = loadOf(cells).maxBodies;
     result.binWidth = mostBodies / LoadHistogram::mostBins + 1;
     result.cells.resize(mostBodies / result.binWidth + 1);
     for (std::size_t c = 0; c < cells.size(); ++c) {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <quadrille/partitioner_config.hpp>
+#include <quadrille/cells.hpp>
 
 namespace quadrille::app {
 

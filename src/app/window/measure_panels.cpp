@@ -4,6 +4,8 @@
 #include <imgui.h>
 #include <string>
 
+#include <quadrille/names.hpp>
+
 #include "app/summary.hpp"
 #include "app/window/panels.hpp"
 #include "app/window/text.hpp"
@@ -79,10 +81,12 @@ void showCountersPanel(const PanelContext& context) {
     row("missed pairs", config.countMissedPairs ? grouped(session.statistics().missedPairs())
                                                 : std::string("not measured"));
     const std::string resolver(name(config.resolver));
-    const std::string& wanted = session.run().requestedResolver;
+    const ResolverKind wanted = session.run().requestedResolver;
     std::string runs = resolver;
     if (simulation.threads() > 1) runs += formatted(" (%d threads)", simulation.threads());
-    if (wanted != resolver && wanted != "auto") runs += ", not " + wanted;
+    if (wanted != config.resolver && wanted != ResolverKind::Auto) {
+        runs += ", not " + std::string(name(wanted));
+    }
     row("runs on", runs);
 }
 

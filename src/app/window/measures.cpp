@@ -28,10 +28,10 @@ void Measures::update(const Workbench& bench) {
     cellsVersion_ = bench.cellsVersion();
     steps_ = steps;
     const Simulation& simulation = bench.simulation();
-    load = quadrille::load(simulation.cells());
+    load = loadOf(simulation.cells());
     histogram = loadHistogram(simulation.cells());
     energyDrift = relativeDrift(bench.session().start().total,
-                                totalEnergy(simulation.world(), simulation.config().gravity));
+                                totalEnergy(simulation.world(), simulation.config().step.gravity));
 }
 
 }  // namespace quadrille::app

@@ -4,7 +4,11 @@
 #include <exception>
 #include <iterator>
 #include <limits>
+#include <span>
+#include <string>
 #include <utility>
+
+#include <quadrille/names.hpp>
 
 #include "app/window/body_colors.hpp"
 
@@ -14,6 +18,14 @@ namespace {
 
 /// Steps of one picture may take this long; then it is shown, and the rest is dropped.
 constexpr std::chrono::milliseconds longestStepping{40};
+
+/// So many further on in the list, the first after the last.
+template <class Kind>
+Kind nextOf(std::span<const Named<Kind>> all, Kind kind, std::size_t further) {
+    std::size_t i = 0;
+    while (i < all.size() && all[i].kind != kind) ++i;
+    return all[(i + further) % all.size()].kind;
+}
 
 }  // namespace
 
@@ -35,7 +47,7 @@ void Workbench::start(Run run, Options options) {
     options_ = std::make_unique<Options>(std::move(options));
     session_ = std::make_unique<RunSession>(std::move(run), *options_);
     session_->statistics().shown = std::move(shown);
-    pacer_ = Pacer(config.dt, pacer_.speed());
+    pacer_ = Pacer(config.step.dt, pacer_.speed());
     listening_ = false;
     contacts_.clear();
     lastStep_ = {};
@@ -97,9 +109,9 @@ int Workbench::advance(double seconds) {
 
 void Workbench::step() {
     contacts_.clear();
-    const bool onDevice = config().resolver == ResolverKind::Cuda;
+    const ResolverKind before = config().resolver;
     lastStep_ = session_->step();
-    if (onDevice && config().resolver != ResolverKind::Cuda) sayFallback();
+    if (config().resolver != before) sayFallback();
     cellsVersion_ += lastStep_.rebuilt;
     for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
 }
@@ -153,8 +165,9 @@ void Workbench::reconfigure(SimulationConfig config) {
     std::string reason;
     try {
         apply(config);
-        if (config.resolver != before) session_->run().requestedResolver = name(config.resolver);
-        if (config.resolver != this->config().resolver) sayFallback();
+        if (config.resolver != before) session_->run().requestedResolver = config.resolver;
+        const bool chosen = config.resolver == ResolverKind::Auto;
+        if (!chosen && config.resolver != this->config().resolver) sayFallback();
         return;
     } catch (const std::exception& error) {
         reason = error.what();
@@ -165,7 +178,7 @@ void Workbench::reconfigure(SimulationConfig config) {
         config.resolver = ResolverKind::Sequential;
         try {
             apply(config);
-            reason += "; running 'sequential'";
+            reason += "; running '" + std::string(name(config.resolver)) + "'";
         } catch (const std::exception& error) {
             reason = error.what();
         }
@@ -181,22 +194,22 @@ void Workbench::setPartitioner(const PartitionerConfig& partitioner) {
 
 void Workbench::nextLaw() {
     SimulationConfig next = config();
-    next.law = static_cast<Law>((static_cast<int>(next.law) + 1) % 3);
+    next.law = nextOf(laws(), next.law, 1);
     reconfigure(std::move(next));
 }
 
 void Workbench::nextResolver() {
-    constexpr int kinds = 4;
-    for (int i = 1; i < kinds; ++i) {
+    for (std::size_t i = 1; i < resolvers().size(); ++i) {
         SimulationConfig next = config();
-        next.resolver = static_cast<ResolverKind>((static_cast<int>(next.resolver) + i) % kinds);
+        next.resolver = nextOf(resolvers(), next.resolver, i);
+        if (next.resolver == ResolverKind::Auto) continue;  // it would be one of the others
         const std::string resolver(name(next.resolver));
         try {
             apply(next);
         } catch (const std::exception&) {
             continue;  // not here, or not with this law
         }
-        session_->run().requestedResolver = resolver;
+        session_->run().requestedResolver = next.resolver;
         say("runs on " + resolver);
         return;
     }
@@ -229,7 +242,9 @@ void Workbench::watchContacts(bool wanted) {
 }
 
 void Workbench::sayFallback() {
-    say(session_->simulation().resolverFailure() + "; running 'sequential'", true);
+    say(session_->simulation().resolverFailure() + "; running '" +
+            std::string(name(config().resolver)) + "'",
+        true);
 }
 
 void Workbench::say(std::string text, bool isError) {

@@ -7,6 +7,7 @@
 #include <quadrille/bodies.hpp>
 #include <quadrille/vec2.hpp>
 
+#include "collision/broad/partitioner.hpp"
 #include "collision/rules/fine_grid.hpp"
 
 namespace quadrille {
@@ -23,16 +24,24 @@ FineGrid<Real> makeFineGrid(const Vec2& origin, const Vec2& cell, std::uint32_t 
             .lastY = static_cast<Real>(rows - 1)};
 }
 
-/// The cells that the boxes of bodies begin..end touch, with every box inflated by `margin` on each
-/// side; bodies as cells count them, moving ones first. Body i goes to out[i].
+/// The cells that the inflated boxes of bodies begin..end touch, moving ones first, to their places
+/// in the partition.
 template <class Real>
-void findRanges(const FineGrid<Real>& grid, const BodyView<Real>& bodies, Real margin,
-                std::size_t begin, std::size_t end, FineRange* out) {
+void findRanges(Partition<Real>& partition, const BodyView<Real>& bodies, std::size_t begin,
+                std::size_t end) {
     const auto& m = bodies.moving;
     const auto& f = bodies.fixed;
+    const FineGrid<Real>& grid = partition.grid;
+    const Real margin = partition.margin;
+    FineRange* const out = partition.ranges.data();
     const std::size_t moving = m.size();
     const std::size_t last = std::min(end, moving);
-    if (m.halfWidth.uniform() && m.halfHeight.uniform()) {
+    if (!partition.extra.empty()) {
+        for (std::size_t i = begin; i < last; ++i) {
+            const Real own = margin + partition.extra[i];
+            out[i] = grid.range(m.x[i], m.y[i], m.halfWidth[i] + own, m.halfHeight[i] + own);
+        }
+    } else if (m.halfWidth.uniform() && m.halfHeight.uniform()) {
         const Real halfWidth = m.halfWidth.common + margin;
         const Real halfHeight = m.halfHeight.common + margin;
         for (std::size_t i = begin; i < last; ++i) {

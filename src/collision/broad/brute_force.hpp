@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "collision/broad/partitioner.hpp"
 
 namespace quadrille {
@@ -16,14 +18,14 @@ class BruteForcePartitioner final : public Partitioner<Real> {
         cells.coordinates = {CellCoordinates{}};
     }
 
-    bool update(const BodyView<Real>& bodies, Real, Real reach) override {
+    bool update(const BodyView<Real>& bodies, Real, const Reach<Real>& reach) override {
         auto& partition = this->partition_;
-        partition.margin = reach;
-        const auto count = static_cast<std::uint32_t>(bodies.size());
-        partition.ranges.assign(count, FineRange{0, 0, 0, 0});
+        const std::size_t count = bodies.size();
+        partition.beginBuild(bodies, reach, 0);
+        std::fill(partition.ranges.begin(), partition.ranges.end(), FineRange{0, 0, 0, 0});
         partition.cells.bodies.resize(count);
-        for (std::uint32_t i = 0; i < count; ++i) partition.cells.bodies[i] = i;
-        partition.cells.offsets[1] = count;
+        for (std::size_t i = 0; i < count; ++i) partition.cells.bodies[i] = partition.bodyAt(i);
+        partition.cells.offsets[1] = static_cast<std::uint32_t>(count);
         ++partition.generation;
         return true;
     }

@@ -10,19 +10,6 @@
 
 namespace quadrille {
 
-std::string name(const PartitionerConfig& config) {
-    switch (config.index()) {
-        case 0:
-            return "brute-force";
-        case 1:
-            return "static-grid";
-        case 2:
-            return "quadtree";
-        default:
-            return "semi-static-quadtree";
-    }
-}
-
 Bounds Cells::bounds(std::size_t cell) const {
     const CellCoordinates& c = coordinates[cell];
     const double side = double(1u << c.shift);
@@ -30,7 +17,7 @@ Bounds Cells::bounds(std::size_t cell) const {
     return {low, low + side * fineCell};
 }
 
-CellLoad load(const Cells& cells) {
+CellLoad loadOf(const Cells& cells) {
     CellLoad result{.cells = cells.size()};
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const std::size_t count = cells[c].size();

@@ -22,21 +22,19 @@ QuadtreeBuilder<Real>::QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2&
 }
 
 template <class Real>
-void QuadtreeBuilder<Real>::build(const BodyView<Real>& bodies, Partition<Real>& partition) {
+void QuadtreeBuilder<Real>::build(const BodyView<Real>& bodies, const Reach<Real>& reach,
+                                  Real added, Partition<Real>& partition) {
     const Vec2 fineCell = worldSize_ / double(1 << maxDepth_);
     partition.grid =
         makeFineGrid<Real>(-worldSize_ / 2, fineCell, 1u << maxDepth_, 1u << maxDepth_);
     const std::size_t count = bodies.size();
-    partition.ranges.resize(count);
+    partition.beginBuild(bodies, reach, added);
     const auto nodes = splitter_.split(
-        partition.ranges,
-        [&](std::size_t begin, std::size_t end) {
-            findRanges(partition.grid, bodies, partition.margin, begin, end,
-                       partition.ranges.data());
-        },
+        partition.ranges, partition.movingCount,
+        [&](std::size_t begin, std::size_t end) { findRanges(partition, bodies, begin, end); },
         maxDepth_, maxPerCell_, team_);
     Cells& cells = partition.cells;
-    if (team_.workersFor(count, worthwhile::built) == 1) {
+    if (team_.workersFor(count, &Thresholds::built) == 1) {
         SubtreeBuilder& builder = pieces_.front().builder;
         builder.start(cells, maxPerCell_);
         for (const TreeNode& node : nodes) builder.add(node);
@@ -115,7 +113,7 @@ std::size_t QuadtreeBuilder<Real>::bytes() const {
     std::size_t sum = splitter_.bytes();
     for (const Piece& piece : pieces_) {
         sum += piece.builder.bytes() + piece.cells.offsets.capacity() * sizeof(std::uint32_t) +
-               piece.cells.bodies.capacity() * sizeof(std::uint32_t) +
+               piece.cells.bodies.capacity() * sizeof(BodyRef) +
                piece.cells.coordinates.capacity() * sizeof(CellCoordinates);
     }
     return sum;

@@ -19,8 +19,10 @@ class QuadtreeBuilder {
     /// Throws Error unless 0 <= maxDepth <= 15 and maxPerCell >= 1.
     QuadtreeBuilder(int maxDepth, int maxPerCell, const Vec2& worldSize, const ThreadTeam& team);
 
-    /// Replaces the partition's cells by the leaves for boxes inflated by partition.margin.
-    void build(const BodyView<Real>& bodies, Partition<Real>& partition);
+    /// Replaces the partition's cells by the leaves for boxes inflated by their reach and what is
+    /// added to it.
+    void build(const BodyView<Real>& bodies, const Reach<Real>& reach, Real added,
+               Partition<Real>& partition);
 
     std::size_t bytes() const;
 
@@ -52,9 +54,8 @@ class QuadtreePartitioner final : public Partitioner<Real> {
                         const ThreadTeam& team = ThreadTeam::serial())
         : builder_(config.maxDepth, config.maxPerCell, worldSize, team) {}
 
-    bool update(const BodyView<Real>& bodies, Real, Real reach) override {
-        this->partition_.margin = reach;
-        builder_.build(bodies, this->partition_);
+    bool update(const BodyView<Real>& bodies, Real, const Reach<Real>& reach) override {
+        builder_.build(bodies, reach, 0, this->partition_);
         return true;
     }
 

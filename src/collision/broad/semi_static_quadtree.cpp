@@ -13,7 +13,7 @@ namespace {
 template <class Real>
 Real fastest(const BodyView<Real>& bodies, const ThreadTeam& team) {
     const auto largest = [&](std::span<const Real> values) {
-        return team.maximum<Real>(values.size(), worthwhile::streamed,
+        return team.maximum<Real>(values.size(), &Thresholds::streamed,
                                   [values](std::size_t begin, std::size_t end) {
                                       Real most = 0;
 #pragma omp simd reduction(max : most)
@@ -31,7 +31,7 @@ template <class Real>
 double mean(const ColumnView<Real>& column, std::size_t rows, const ThreadTeam& team) {
     if (column.uniform() || rows == 0) return static_cast<double>(column.common);
     const double sum =
-        team.sum(rows, worthwhile::streamed, [&](std::size_t begin, std::size_t end) {
+        team.sum(rows, &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
             double part = 0;
             for (std::size_t i = begin; i < end; ++i) part += static_cast<double>(column.values[i]);
             return part;
@@ -42,7 +42,7 @@ double mean(const ColumnView<Real>& column, std::size_t rows, const ThreadTeam& 
 /// Sum over the bodies of the number density around each, 1/px^2. The bodies of a cell are those
 /// whose centres lie in the cell or within half a box of it, where `box` is the mean inflated size.
 double crowding(const Cells& cells, const Vec2& box, const ThreadTeam& team) {
-    return team.sum(cells.size(), worthwhile::built, [&](std::size_t begin, std::size_t end) {
+    return team.sum(cells.size(), &Thresholds::built, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t c = begin; c < end; ++c) {
             const double count = cells.offsets[c + 1] - cells.offsets[c];
@@ -74,39 +74,47 @@ SemiStaticQuadtreePartitioner<Real>::SemiStaticQuadtreePartitioner(const SemiSta
 
 template <class Real>
 bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, Real dt,
-                                                 Real reach) {
+                                                 const Reach<Real>& reach) {
     ++age_;
-    bool due = this->partition_.generation == 0 || bodies.revision != builtRevision_;
     if (const auto* every = std::get_if<SemiStaticQuadtree::EveryFrames>(&config_.rebuild)) {
-        due = due || age_ >= static_cast<std::uint32_t>(every->frames);
-    } else {
-        due = due || anyLeft(bodies, reach);
-        if (due) this->partition_.margin = reach + chooseMargin(bodies, dt, reach);
+        const bool due = this->partition_.generation == 0 || bodies.revision != builtRevision_ ||
+                         age_ >= static_cast<std::uint32_t>(every->frames);
+        if (due) rebuild(bodies, reach, 0);
+        return due;
     }
-    if (due) rebuild(bodies);
-    return due;
+    // Who knows how far bodies will get asks again when they may have got there.
+    const bool looksAhead = reach.common > 0 || !reach.own.empty();
+    const bool due = looksAhead || this->partition_.generation == 0 ||
+                     bodies.revision != builtRevision_ || anyLeft(bodies);
+    if (!due) return false;
+    rebuild(bodies, reach, looksAhead ? Real(0) : chooseSkin(bodies, dt));
+    if (!looksAhead) rememberPositions(bodies);
+    return true;
 }
 
 template <class Real>
-void SemiStaticQuadtreePartitioner<Real>::rebuild(const BodyView<Real>& bodies) {
-    builder_.build(bodies, this->partition_);
+void SemiStaticQuadtreePartitioner<Real>::rebuild(const BodyView<Real>& bodies,
+                                                  const Reach<Real>& reach, Real skin) {
+    builder_.build(bodies, reach, skin, this->partition_);
     builtRevision_ = bodies.revision;
     age_ = 0;
-    if (this->partition_.complete) {
-        const auto& m = bodies.moving;
-        builtX_.resize(m.size());
-        builtY_.resize(m.size());
-        team_.shares(m.size(), worthwhile::streamed,
-                     [&](std::size_t begin, std::size_t end, unsigned) {
-                         std::copy(m.x.data() + begin, m.x.data() + end, builtX_.data() + begin);
-                         std::copy(m.y.data() + begin, m.y.data() + end, builtY_.data() + begin);
-                     });
-    }
 }
 
 template <class Real>
-bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies, Real reach) const {
-    const Real margin = this->partition_.margin - reach;
+void SemiStaticQuadtreePartitioner<Real>::rememberPositions(const BodyView<Real>& bodies) {
+    const auto& m = bodies.moving;
+    builtX_.resize(m.size());
+    builtY_.resize(m.size());
+    team_.shares(m.size(), &Thresholds::streamed,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     std::copy(m.x.data() + begin, m.x.data() + end, builtX_.data() + begin);
+                     std::copy(m.y.data() + begin, m.y.data() + end, builtY_.data() + begin);
+                 });
+}
+
+template <class Real>
+bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies) const {
+    const Real margin = this->partition_.margin;
     const auto left = [margin](const Real* now, const Real* then, std::size_t begin,
                                std::size_t end) {
         int count = 0;
@@ -115,7 +123,7 @@ bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies, 
         return count != 0;
     };
     const auto& m = bodies.moving;
-    return team_.any(m.size(), worthwhile::streamed, [&](std::size_t begin, std::size_t end) {
+    return team_.any(m.size(), &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
         return left(m.x.data(), builtX_.data(), begin, end) ||
                left(m.y.data(), builtY_.data(), begin, end);
     });
@@ -125,8 +133,8 @@ bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies, 
 template <class Real>
 double SemiStaticQuadtreePartitioner<Real>::walked(const BodyView<Real>& bodies) const {
     const auto& m = bodies.moving;
-    if (builtX_.size() != m.size()) return 0;
-    const Real farthest = team_.maximum<Real>(m.size(), worthwhile::streamed,
+    if (bodies.revision != builtRevision_) return 0;  // other bodies may be in the rows
+    const Real farthest = team_.maximum<Real>(m.size(), &Thresholds::streamed,
                                               [&](std::size_t begin, std::size_t end) {
                                                   Real most = 0;
 #pragma omp simd reduction(max : most)
@@ -145,8 +153,7 @@ double SemiStaticQuadtreePartitioner<Real>::walked(const BodyView<Real>& bodies)
 /// test. Both grow in known ways, and the prices below are measured (docs/performance.md); the
 /// result is the same with any skin, so a poor choice costs time only.
 template <class Real>
-Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bodies, Real dt,
-                                                       Real reach) const {
+Real SemiStaticQuadtreePartitioner<Real>::chooseSkin(const BodyView<Real>& bodies, Real dt) const {
     const double fixed = std::get<SemiStaticQuadtree::Skin>(config_.rebuild).width;
     if (fixed > 0) return static_cast<Real>(fixed);
     // The first tree shows how the bodies are spread, which decides about the second; and so does
@@ -154,13 +161,10 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
     const auto& last = this->partition_;
     if (last.generation == 0 || last.ranges.size() < bodies.size() / 2) return 0;
 
-    // A law that looks ahead searches each pair once, as far as the tree will last, and again
-    // around events only; the others test each pair in each step.
-    const bool looksAhead = reach > 0;
-    constexpr double buildPrice = 45;                  // ns a body, for tree and walk through it
-    const double collectPrice = looksAhead ? 40 : 8;   // ns a candidate pair, found and listed
-    const double testPrice = looksAhead ? 0.25 : 1.2;  // ns a candidate pair and step
-    const int longest = looksAhead ? 80 : 40;          // steps
+    constexpr double buildPrice = 45;   // ns a body, for tree and walk through it
+    constexpr double collectPrice = 8;  // ns a candidate pair, found and listed
+    constexpr double testPrice = 1.2;   // ns a candidate pair and step
+    constexpr int longest = 40;         // steps
 
     const auto& moving = bodies.moving;
     const auto count = static_cast<double>(moving.size());
@@ -171,12 +175,11 @@ Real SemiStaticQuadtreePartitioner<Real>::chooseMargin(const BodyView<Real>& bod
     // What bodies walked lately counts too: pushing overlaps apart moves them beyond their speed.
     const double travel =
         std::max(static_cast<double>(fastest(bodies, team_) * dt), walked(bodies));
-    const auto room = static_cast<double>(reach);
     double bestCost = 0;
     double bestSkin = 0;
     for (int steps = 0; steps <= longest; ++steps) {
         const double skin = steps == 0 ? 0 : (steps + 0.01) * travel;
-        const Vec2 inflated = size + 2 * Vec2(skin + room, skin + room);
+        const Vec2 inflated = size + 2 * Vec2(skin, skin);
         const double pairs = 2 * inflated.x() * inflated.y() * crowd;
         const double cost =
             (buildPrice * count + collectPrice * pairs) / (steps + 1) + testPrice * pairs;

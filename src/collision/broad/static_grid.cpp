@@ -59,14 +59,14 @@ StaticGridPartitioner<Real>::StaticGridPartitioner(const StaticGrid& config, con
 }
 
 template <class Real>
-bool StaticGridPartitioner<Real>::update(const BodyView<Real>& bodies, Real, Real reach) {
+bool StaticGridPartitioner<Real>::update(const BodyView<Real>& bodies, Real,
+                                         const Reach<Real>& reach) {
     auto& partition = this->partition_;
     const std::size_t count = bodies.size();
-    partition.margin = reach;
-    partition.ranges.resize(count);
-    const unsigned workers = team_.workersFor(count, worthwhile::built);
+    partition.beginBuild(bodies, reach, 0);
+    const unsigned workers = team_.workersFor(count, &Thresholds::built);
     if (workers == 1) {
-        findRanges(partition.grid, bodies, reach, 0, count, partition.ranges.data());
+        findRanges(partition, bodies, 0, count);
         const Strip all{0, rows_};
         const auto body = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
         reserveEntries(countRows(all, count, body));
@@ -131,7 +131,7 @@ void StaticGridPartitioner<Real>::sortIntoStrips(const BodyView<Real>& bodies, u
         const std::size_t end = count * (worker + 1) / workers;
         std::uint32_t* const found = places_.data() + worker * stride;
         std::fill(found, found + strips_.size(), 0);
-        findRanges(partition.grid, bodies, partition.margin, begin, end, ranges);
+        findRanges(partition, bodies, begin, end);
         for (std::size_t i = begin; i < end; ++i) {
             forEachStrip(ranges[i], [&](std::size_t s) { ++found[s]; });
         }
@@ -194,15 +194,17 @@ void StaticGridPartitioner<Real>::fillRows(const Strip& strip, std::size_t count
                                            std::uint32_t begin) {
     const FineRange* const ranges = this->partition_.ranges.data();
     std::uint32_t* const offsets = this->partition_.cells.offsets.data();
-    std::uint32_t* const bodies = this->partition_.cells.bodies.data();
+    BodyRef* const bodies = this->partition_.cells.bodies.data();
     std::uint32_t end = begin;
     for (std::size_t c = std::size_t(strip.firstRow) * columns_;
          c < std::size_t(strip.lastRow) * columns_; ++c) {
         offsets[c] = end += offsets[c];
     }
     for (std::size_t i = count; i-- > 0;) {
-        const std::uint32_t body = member(i);
-        forEachCell(strip, ranges[body], [&](std::size_t cell) { bodies[--offsets[cell]] = body; });
+        const std::uint32_t place = member(i);
+        const BodyRef body = this->partition_.bodyAt(place);
+        forEachCell(strip, ranges[place],
+                    [&](std::size_t cell) { bodies[--offsets[cell]] = body; });
     }
 }
 

@@ -16,7 +16,7 @@ class StaticGridPartitioner final : public Partitioner<Real> {
     StaticGridPartitioner(const StaticGrid& config, const Vec2& worldSize,
                           const ThreadTeam& team = ThreadTeam::serial());
 
-    bool update(const BodyView<Real>& bodies, Real dt, Real reach) override;
+    bool update(const BodyView<Real>& bodies, Real dt, const Reach<Real>& reach) override;
 
     std::size_t bytes() const override;
 

@@ -18,7 +18,7 @@ void SubtreeBuilder::start(Cells& out, std::size_t maxPerCell, std::size_t room)
 void SubtreeBuilder::finish() { out_->bodies.resize(entries_); }
 
 void SubtreeBuilder::add(const TreeNode& node) {
-    if (node.count <= maxPerCell_ || node.shift == 0) {
+    if (isLeaf(node.count, maxPerCell_, node.shift, false)) {
         emit(node);
         return;
     }
@@ -44,7 +44,9 @@ void SubtreeBuilder::add(const TreeNode& node) {
     }
     std::array<std::size_t, 4> size;
     for (std::size_t k = 0; k < 4; ++k) size[k] = static_cast<std::size_t>(end[k] - child[k]);
-    if (size[0] + size[1] + size[2] + size[3] == 4 * node.count && node.covered()) {
+    // Only where each quadrant holds all bodies can all of them cover the node.
+    const bool mayCover = size[0] + size[1] + size[2] + size[3] == 4 * node.count;
+    if (isLeaf(node.count, maxPerCell_, node.shift, mayCover && node.covered())) {
         emit(node);
         return;
     }

@@ -9,13 +9,14 @@
 #include <quadrille/cells.hpp>
 
 #include "collision/rules/fine_grid.hpp"
+#include "collision/rules/leaf_rule.hpp"
 
 namespace quadrille {
 
 /// A body in a node of a quadtree that is being built.
 struct TreeReference {
     FineRange range;
-    std::uint32_t body;
+    BodyRef body;
 };
 
 /// Memory that is not cleared, so that pages are touched only where something is written.
@@ -59,11 +60,7 @@ struct TreeNode {
         const std::uint32_t half = 1u << (shift - 1);
         return {first, size, x + (k & 1 ? half : 0), y + (k & 2 ? half : 0), shift - 1};
     }
-    bool coveredBy(const FineRange& range) const {
-        const std::uint32_t side = 1u << shift;
-        return range.x0 <= x && range.x1 >= x + side - 1 && range.y0 <= y &&
-               range.y1 >= y + side - 1;
-    }
+    bool coveredBy(const FineRange& range) const { return coversNode(range, x, y, shift); }
     /// Whether all its bodies cover the node entirely: then no split could part them.
     bool covered() const {
         return std::all_of(references, references + count,

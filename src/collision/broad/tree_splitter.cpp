@@ -11,9 +11,7 @@ namespace quadrille {
 
 namespace {
 
-/// References of a node: as many as a thread builds in its cache, or where there are few, about
-/// four nodes for each worker, but not less than pays.
-constexpr std::size_t most = 1024;
+/// Where there are few references, about four nodes for each worker, but not less than pays.
 constexpr std::size_t fewest = 128;
 constexpr std::size_t nodesPerWorker = 4;
 /// A thread alone cuts trees of so many bodies, which its cache does not hold.
@@ -48,13 +46,15 @@ TreeNode nodeAt(std::uint32_t x, std::uint32_t y, int shift) {
 }  // namespace
 
 std::span<const TreeNode> TreeSplitter::split(std::span<const FineRange> ranges,
+                                              std::uint32_t movingCount,
                                               const FindRanges& findRanges, int maxDepth,
                                               std::size_t maxPerCell, const ThreadTeam& team) {
     const std::size_t bodies = ranges.size();
-    const unsigned workers = team.workersFor(bodies, worthwhile::built);
-    const std::size_t share = std::clamp(bodies / (nodesPerWorker * workers), fewest, most);
-    const std::size_t enough = std::max(maxPerCell, team.eager() ? 1 : share);
+    const unsigned workers = team.workersFor(bodies, &Thresholds::built);
+    const std::size_t share = std::max(bodies / (nodesPerWorker * workers), fewest);
+    const std::size_t enough = std::max(maxPerCell, std::min(share, team.thresholds().treePart));
     const bool cut = workers > 1 || bodies >= large;
+    movingCount_ = movingCount;
     maxDepth_ = maxDepth;
     depth_ = 0;
     while (cut && depth_ < std::min(mostLevels, maxDepth) && (bodies >> 2 * depth_) > 2 * enough)
@@ -63,7 +63,7 @@ std::span<const TreeNode> TreeSplitter::split(std::span<const FineRange> ranges,
     if (depth_ == 0) return whole(ranges, findRanges, team);
 
     counts_.resize(workers * stride());
-    team.shares(bodies, worthwhile::built, [&](std::size_t b, std::size_t e, unsigned worker) {
+    team.shares(bodies, &Thresholds::built, [&](std::size_t b, std::size_t e, unsigned worker) {
         const Histogram own = histogram(worker);
         std::fill(own.touching, own.touching + 3 * squares(), 0);
         for (std::size_t first = b; first < e; first += block) {
@@ -75,7 +75,7 @@ std::span<const TreeNode> TreeSplitter::split(std::span<const FineRange> ranges,
     });
     chooseParts(workers, enough);
     TreeReference* const out = makeRoom(workers);
-    team.shares(bodies, worthwhile::built, [&](std::size_t b, std::size_t e, unsigned worker) {
+    team.shares(bodies, &Thresholds::built, [&](std::size_t b, std::size_t e, unsigned worker) {
         place(ranges, b, e, histogram(worker).touching, out);
     });
     return nodes_;
@@ -86,12 +86,17 @@ std::span<const TreeNode> TreeSplitter::whole(std::span<const FineRange> ranges,
                                               const FindRanges& findRanges,
                                               const ThreadTeam& team) {
     TreeReference* const out = references_.reserve(ranges.size());
-    team.shares(ranges.size(), worthwhile::built, [&](std::size_t b, std::size_t e, unsigned) {
+    team.shares(ranges.size(), &Thresholds::built, [&](std::size_t b, std::size_t e, unsigned) {
         findRanges(b, e);
-        for (std::size_t i = b; i < e; ++i) out[i] = {ranges[i], static_cast<std::uint32_t>(i)};
+        for (std::size_t i = b; i < e; ++i) out[i] = referenceOf(ranges, i);
     });
     nodes_.assign(1, {out, ranges.size(), 0, 0, maxDepth_});
     return nodes_;
+}
+
+TreeReference TreeSplitter::referenceOf(std::span<const FineRange> ranges, std::size_t i) const {
+    const auto k = static_cast<std::uint32_t>(i);
+    return {ranges[i], k < movingCount_ ? BodyRef::moving(k) : BodyRef::fixed(k - movingCount_)};
 }
 
 TreeSplitter::Histogram TreeSplitter::histogram(unsigned worker) {
@@ -149,11 +154,11 @@ void TreeSplitter::chooseParts(unsigned workers, std::size_t enough) {
     addParts(enough, 0, 0, 0);
 }
 
-/// In Z order. As in building, a square whose bodies all cover it is not split.
+/// In Z order. A part may hold more than a leaf does.
 void TreeSplitter::addParts(std::size_t enough, int level, std::uint32_t x, std::uint32_t y) {
     const std::size_t square = number(level, x, y);
-    const bool covered = covering_[square] == touching_[square];
-    if (level < depth_ && touching_[square] > enough && !covered) {
+    const bool allCover = covering_[square] == touching_[square];
+    if (level < depth_ && !isLeaf(touching_[square], enough, maxDepth_ - level, allCover)) {
         for (std::uint32_t k = 0; k < 4; ++k) {
             addParts(enough, level + 1, 2 * x + (k & 1), 2 * y + (k >> 1));
         }
@@ -197,7 +202,7 @@ TreeReference* TreeSplitter::makeRoom(unsigned workers) {
 void TreeSplitter::place(std::span<const FineRange> ranges, std::size_t begin, std::size_t end,
                          std::uint32_t* places, TreeReference* out) const {
     for (std::size_t i = begin; i < end; ++i) {
-        const TreeReference reference{ranges[i], static_cast<std::uint32_t>(i)};
+        const TreeReference reference = referenceOf(ranges, i);
         const FineRange lowest = squaresOf(ranges[i], maxDepth_ - depth_);
         forEachSquare(lowest, [&](std::uint32_t x, std::uint32_t y) {
             const Part& part = parts_[partOf_[(std::size_t(y) << depth_) + x]];

@@ -17,12 +17,14 @@ class TreeSplitter {
   public:
     using FindRanges = std::function<void(std::size_t begin, std::size_t end)>;
 
-    /// The nodes, in Z order, that make up the tree over the bodies with these ranges: leaves, and
+    /// The nodes, in Z order, that make up the tree over the bodies with these ranges, of which the
+    /// first `movingCount` move: leaves, and
     /// nodes that may still have to be split. They refer to memory of this object. The ranges need
     /// not be there yet: `findRanges` is called to fill them. Throws Error if there are more
     /// references than 32 bits can count.
-    std::span<const TreeNode> split(std::span<const FineRange> ranges, const FindRanges& findRanges,
-                                    int maxDepth, std::size_t maxPerCell, const ThreadTeam& team);
+    std::span<const TreeNode> split(std::span<const FineRange> ranges, std::uint32_t movingCount,
+                                    const FindRanges& findRanges, int maxDepth,
+                                    std::size_t maxPerCell, const ThreadTeam& team);
 
     std::size_t bytes() const;
 
@@ -59,6 +61,9 @@ class TreeSplitter {
     void place(std::span<const FineRange> ranges, std::size_t begin, std::size_t end,
                std::uint32_t* places, TreeReference* out) const;
 
+    TreeReference referenceOf(std::span<const FineRange> ranges, std::size_t i) const;
+
+    std::uint32_t movingCount_ = 0;
     int maxDepth_ = 0;
     int depth_ = 0;
     std::vector<std::uint32_t> counts_;  // the workers' histograms; in the end, of each part, where

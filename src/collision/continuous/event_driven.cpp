@@ -8,13 +8,30 @@
 
 #include <quadrille/error.hpp>
 
+#include "collision/integrate.hpp"
+
 namespace quadrille {
 
+namespace {
+
+/// Bodies that are so many times as fast as the mean have bounds of their own.
+constexpr double outlier = 8;
+
+/// px/s along the faster axis.
+template <class Moving>
+double speedOf(const Moving& m, std::size_t row) {
+    return static_cast<double>(std::max(std::abs(m.vx[row]), std::abs(m.vy[row])));
+}
+
+}  // namespace
+
 template <class Real, class Path>
-EventDriven<Real, Path>::EventDriven(const SimulationConfig& config, const ThreadTeam& team)
-    : team_(team),
-      gravity_{config.gravity.x(), config.gravity.y()},
-      restitution_(config.restitution),
+EventDriven<Real, Path>::EventDriven(const StepSettings& settings, const ThreadTeam& team)
+    : ContactLaw<Real>({.anchors = true, .rests = falls}),
+      team_(team),
+      gravityX_(settings.gravity.x()),
+      gravityY_(settings.gravity.y()),
+      restitution_(settings.restitution),
       candidates_(team),
       found_(team.size()) {
     if (!falls && restitution_ == 1 && team.size() > 1) {
@@ -23,66 +40,60 @@ EventDriven<Real, Path>::EventDriven(const SimulationConfig& config, const Threa
 }
 
 template <class Real, class Path>
-void EventDriven<Real, Path>::anchor(const BodyView<Real>& bodies, double now) {
+void EventDriven<Real, Path>::begin(const LawBodies<Real>& bodies, Step<Real>& step) {
+    records_.clear();
+    if (revision_ != bodies.revision) takeOver(bodies, step.from);
+}
+
+/// Makes the bodies those that the law knows: at the beginning, and when somebody else has changed
+/// them. A body that is not where its anchor says, be it new, edited, or brought from another run
+/// or another time, sets out anew from where it is.
+template <class Real, class Path>
+void EventDriven<Real, Path>::takeOver(const LawBodies<Real>& bodies, double now) {
     const auto& m = bodies.moving;
-    auto& anchors = *m.anchors;
     const auto rows = static_cast<std::uint32_t>(m.size());
-    const bool begins = !anchors.enabled;
-    if (begins) {
-        anchors = {};
-        anchors.enabled = true;
-        for (std::uint32_t i = 0; i < rows; ++i) anchors.append();
-    }
-    // Rows may have moved, sizes changed: what is known is found again. Where a run begins or was
-    // edited, overlaps are looked for as well, and around each event after; where it is resumed,
-    // not, so that it goes on as if it had not been interrupted.
-    const bool edited = revision_.has_value() && *revision_ != bodies.revision;
-    if (revision_ != bodies.revision) {
-        revision_ = bodies.revision;
-        events_.queue.clear();
-        horizon_ = -1;
-        surveyed_ = false;
-        stamps_.assign(rows, 0);
-        if constexpr (!falls) anchors.rests = {};
-        while (anchors.rests.size() < rows) anchors.rests.push_back(0);
-    }
+    // Rows may have moved, sizes changed: what is known is found again. Where bodies were edited,
+    // overlaps are looked for as well, and around each event after; where a run is resumed, not, so
+    // that it goes on as if it had not been interrupted.
+    revision_ = bodies.revision;
+    events_.queue.clear();
+    horizon_ = now;
+    stamps_.assign(rows, 0);
     auto& changed = events_.changed;
-    if (anchors.incomplete) {
-        for (std::uint32_t i = 0; i < rows; ++i) {
-            if (!std::isnan(anchors.rows[i].timeX)) continue;
-            anchors.rows[i] = {m.x[i], m.y[i], m.vx[i], m.vy[i], now, now};
-            if (!edited) changed.push_back(i);
+    changed.clear();
+    events_.mayRest = false;
+    const Motion motion = motionOf(bodies);
+    for (std::uint32_t i = 0; i < rows; ++i) {
+        if (!motion.isPlaced(i, now)) {
+            bodies.anchors[i] = {m.x[i], m.y[i], m.vx[i], m.vy[i], now, now};
+            if constexpr (falls) bodies.rests[i] = 0;
+            if (!bodies.edited) changed.push_back(i);
         }
-        anchors.incomplete = false;
-    }
-    if (edited) {
-        changed.resize(rows);
-        for (std::uint32_t i = 0; i < rows; ++i) changed[i] = i;
+        if (bodies.edited) changed.push_back(i);
+        if constexpr (falls) events_.mayRest = events_.mayRest || bodies.rests[i] != 0;
     }
 }
 
 template <class Real, class Path>
-bool EventDriven<Real, Path>::place(const BodyView<Real>& bodies, double t) const {
-    const auto& m = bodies.moving;
-    const Trajectories<Real, Path> motion(bodies, gravity_);
+ExactMotion<Real, Path> EventDriven<Real, Path>::motionOf(const LawBodies<Real>& bodies) const {
+    return {.bodies = bodies.plain(),
+            .gravityX = gravityX_,
+            .gravityY = gravityY_,
+            .restitution = restitution_};
+}
+
+/// Writes where all bodies are at time t. Returns whether the positions are finite.
+template <class Real, class Path>
+bool EventDriven<Real, Path>::place(const LawBodies<Real>& bodies, double t) const {
     constexpr Real largest = std::numeric_limits<Real>::max();
-    return !team_.any(m.size(), worthwhile::streamed, [&](std::size_t begin, std::size_t end) {
-        const Anchor<Real>* const rows = m.anchors->rows.data();
-        Real* const x = m.x.data();
-        Real* const y = m.y.data();
+    const std::size_t rows = bodies.moving.size();
+    return !team_.any(rows, &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
+        const Motion motion = motionOf(bodies);
+        const Real* const x = motion.bodies.moving.x;
+        const Real* const y = motion.bodies.moving.y;
         int lost = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            if constexpr (falls) {
-                const auto at = motion.paths(static_cast<std::uint32_t>(i));
-                x[i] = static_cast<Real>(at.along[0].position(t));
-                y[i] = static_cast<Real>(at.along[1].position(t));
-                m.vx[i] = static_cast<Real>(at.along[0].speed(t));
-                m.vy[i] = static_cast<Real>(at.along[1].speed(t));
-            } else {
-                const Anchor<Real>& a = rows[i];
-                x[i] = static_cast<Real>(static_cast<double>(a.x) + a.vx * (t - a.timeX));
-                y[i] = static_cast<Real>(static_cast<double>(a.y) + a.vy * (t - a.timeY));
-            }
+            motion.place(static_cast<std::uint32_t>(i), t);
             lost |= !(std::abs(x[i]) <= largest) | !(std::abs(y[i]) <= largest);
         }
         return lost != 0;
@@ -91,10 +102,11 @@ bool EventDriven<Real, Path>::place(const BodyView<Real>& bodies, double t) cons
 
 /// Looks at the speeds and positions of all bodies, at a time when they are up to date.
 template <class Real, class Path>
-void EventDriven<Real, Path>::survey(const BodyView<Real>& bodies) {
+void EventDriven<Real, Path>::survey(const LawBodies<Real>& bodies) {
+    const auto& m = bodies.moving;
     const auto largest = [&](std::span<const Real> along, std::span<const Real> across) {
         return static_cast<double>(team_.template maximum<Real>(
-            along.size(), worthwhile::streamed, [&](std::size_t begin, std::size_t end) {
+            along.size(), &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
                 Real most = 0;
 #pragma omp simd reduction(max : most)
                 for (std::size_t i = begin; i < end; ++i) {
@@ -106,30 +118,135 @@ void EventDriven<Real, Path>::survey(const BodyView<Real>& bodies) {
                 return most;
             }));
     };
-    fastest_ = largest(bodies.moving.vx, bodies.moving.vy);
-    farthest_ = largest(bodies.moving.x, bodies.moving.y);
-    surveyed_ = true;
+    // A body that rests falls only after an event.
+    const auto accelerated = [&](std::size_t i, int axis) {
+        if constexpr (falls) {
+            return gravityAlong(axis) != 0 && (bodies.rests[i] & axisBit(axis)) == 0;
+        }
+        return false;
+    };
+    farthest_ = largest(m.x, m.y);
+    fastest_ = largest(m.vx, m.vy);
+    const auto rows = static_cast<double>(m.size());
+    speedSum_ = sumOver(m.size(), [&](std::size_t i) { return speedOf(m, i); });
+    squareSum_ = sumOver(m.size(), [&](std::size_t i) { return speedOf(m, i) * speedOf(m, i); });
+    sizeSum_ = m.halfWidth.uniform() && m.halfHeight.uniform()
+                   ? rows * static_cast<double>(m.halfWidth.common + m.halfHeight.common)
+                   : sumOver(m.size(), [&](std::size_t i) {
+                         return static_cast<double>(m.halfWidth[i] + m.halfHeight[i]);
+                     });
+    gravityNow_ = 0;
+    for (int axis = 0; falls && axis < 2; ++axis) {
+        const bool any = team_.any(m.size(), &Thresholds::streamed, [&](auto begin, auto end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (accelerated(i, axis)) return true;
+            }
+            return false;
+        });
+        if (any) gravityNow_ = std::max(gravityNow_, std::abs(gravityAlong(axis)));
+    }
 }
 
 template <class Real, class Path>
-Real EventDriven<Real, Path>::reach(const BodyView<Real>& bodies, double from, double to) {
-    // Without gravity only events change speeds, and they keep count of the fastest.
-    if (falls || !surveyed_) survey(bodies);
-    const double gained =
-        falls ? std::max(std::abs(gravity_[0]), std::abs(gravity_[1])) * (to - from) : 0;
-    // A light body leaves a heavy one at up to twice the heavy one's speed. The rest covers the
-    // rounding of positions; without it a pair that only touches might be left out.
-    const double gain = bodies.moving.mass.uniform() ? 1 : 2;
+template <class Function>
+double EventDriven<Real, Path>::sumOver(std::size_t rows, Function&& function) const {
+    return team_.sum(rows, &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
+        double part = 0;
+        for (std::size_t i = begin; i < end; ++i) part += function(i);
+        return part;
+    });
+}
+
+/// For how long the next partition is to cover the bodies, s: the longer, the seldomer it is built,
+/// and the more pairs it shows. The prices are measured (docs/performance.md); the result does not
+/// depend on the choice.
+template <class Real, class Path>
+double EventDriven<Real, Path>::chooseLife(std::size_t rows, double now) const {
+    constexpr double buildPrice = 90;    // ns a body, for cells and the walk through them
+    constexpr double collectPrice = 40;  // ns a candidate pair, found, listed and searched
+    constexpr double againPrice = 30;    // ns a neighbour, searched again after an event
+    constexpr double longest = 60;       // s
+
+    const auto count = static_cast<double>(rows);
+    const double size = sizeSum_ / count;
+    const double gain = gainOf();
+    const auto pairsIn = [&](double life) {
+        // Of density: the sum over the bodies of the area in which another's centre makes a pair.
+        const double speeds = gain * (speedSum_ + count * gravityNow_ * life);
+        const double squares = gain * gain * squareSum_ + 2 * gain * gravityNow_ * life * speeds;
+        return density_ *
+               (count * size * size + 4 * size * life * speeds + 4 * life * life * squares);
+    };
+    const double elapsed = now - partitionTime_;
+    const double eventRate = elapsed > 0 ? static_cast<double>(eventsSince_) / elapsed : 0;
+    const auto costOf = [&](double life) {
+        const double pairs = pairsIn(life);
+        return (buildPrice * count + collectPrice * pairs) / life +
+               againPrice * eventRate * 4 * pairs / count;
+    };
+    // From the time in which a typical body gets on by a hundredth of its size.
+    const double typical = gain * speedSum_ / count;
+    const double fall = gravityNow_ > 0 ? std::sqrt(0.02 * size / (gain * gravityNow_)) : longest;
+    double best = std::min({longest, fall, typical > 0 ? 0.01 * size / typical : longest});
+    // The first partitions show how crowded it is, step by step: pairs grow with the square.
+    const double most = life_ > 0 ? std::min(4 * life_, longest) : best;
+    for (double life = best; life < most; life *= 1.25) {
+        if (costOf(life) < costOf(best)) best = life;
+    }
+    return best;
+}
+
+template <class Real, class Path>
+std::optional<Reach<Real>> EventDriven<Real, Path>::reach(const LawBodies<Real>& bodies, double now,
+                                                          double) {
+    if (now < horizon_) return std::nullopt;
+    const auto& m = bodies.moving;
+    if (m.size() == 0) {
+        horizon_ = now + 1;
+        return Reach<Real>{};
+    }
+    uniformMass_ = m.mass.uniform();
+    survey(bodies);
+    life_ = chooseLife(m.size(), now);
+    const double life = life_;
+    horizon_ = now + life;
+    partitionTime_ = now;
+    eventsSince_ = 0;
+
+    // Few that are much faster than the others have bounds of their own, or all boxes would grow
+    // with the fastest.
+    const double gain = gainOf();
+    const double gained = gravityNow_ * life;
+    const double typical = outlier * speedSum_ / static_cast<double>(m.size());
+    const bool outliers = fastest_ > typical;
+    const auto boundOf = [&](double speed) { return gain * (speed + gained); };
+    bounds_.common = boundOf(outliers ? typical : fastest_);
+    bounds_.own = nullptr;
+    // The rest covers the rounding of positions; without it a pair that only touches might be left
+    // out.
     constexpr double eps = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-    const double way = gain * (fastest_ + gained) * (to - from);
-    farthest_ += way;
-    return static_cast<Real>(way * (1 + 1e-6) + eps * farthest_);
+    farthest_ += boundOf(fastest_) * life;
+    const auto wayAt = [&](double bound) {
+        return static_cast<Real>(bound * life * (1 + 1e-6) + eps * farthest_);
+    };
+    Reach<Real> reach(std::max(wayAt(bounds_.common), std::numeric_limits<Real>::min()));
+    if (outliers) {
+        ownBounds_.resize(m.size());
+        ownReach_.resize(m.size());
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            ownBounds_[i] = std::max(bounds_.common, boundOf(speedOf(m, i)));
+            ownReach_[i] = wayAt(ownBounds_[i]);
+        }
+        bounds_.own = ownBounds_.data();
+        reach.own = ownReach_;
+    }
+    return reach;
 }
 
 /// All meetings of candidates between `from` and `to`.
 template <class Real, class Path>
 void EventDriven<Real, Path>::findAll(const Search& search, double from, double to) {
-    const unsigned workers = team_.workersFor(candidates_.size(), worthwhile::tested);
+    const unsigned workers = team_.workersFor(candidates_.size(), &Thresholds::tested);
     const auto findShare = [&](unsigned worker, EventQueue& queue) {
         const auto find = [&](auto pairs) { search.findAmong(pairs, from, to, queue); };
         candidates_.forShare(worker, workers, find, find);
@@ -146,67 +263,106 @@ void EventDriven<Real, Path>::findAll(const Search& search, double from, double 
 }
 
 template <class Real, class Path>
-double EventDriven<Real, Path>::advance(const BodyView<Real>& bodies,
-                                        const Partition<Real>& partition, Real reach, double from,
-                                        double to, std::vector<ContactRecord>* records,
-                                        ResolveCounts& counts) {
-    events_.queue.begin(to, bodies.moving.entity, bodies.fixed.entity);
-    const bool newPairs = candidates_.update(bodies, partition);
-    if (newPairs) surveyed_ = false;  // speeds may have fallen
-    if (newPairs) neighbours_.link(bodies.moving.size(), candidates_);
+double EventDriven<Real, Path>::advance(const LawBodies<Real>& bodies,
+                                        const Partition<Real>& partition, double now,
+                                        Step<Real>& step) {
+    const double done = runEvents(bodies, partition, now, step);
+    step.clock.finish(Phase::Resolve);
+    if (!place(bodies, done)) requireFinite(bodies.read(), team_);
+    step.clock.finish(Phase::Integrate);
+    return done;
+}
 
-    const Trajectories<Real, Path> motion(bodies, gravity_);
-    const Search search(motion, neighbours_, stamps_, restitution_);
-    if (newPairs || to > horizon_) {
-        // Meetings do not depend on steps, so they are found for as long as the pairs may last.
-        const double life = reach > 0 ? static_cast<double>(partition.margin / reach) + 1 : 1.0;
-        horizon_ = std::max(to, from + life * (to - from));
-        findAll(search, from, horizon_);
-        counts.pairsTested += candidates_.size();
+/// Runs the events from `now` on, to the end of the step or of what the partition covers, or to an
+/// event that makes a body too fast for it. Returns the time of that.
+template <class Real, class Path>
+double EventDriven<Real, Path>::runEvents(const LawBodies<Real>& bodies,
+                                          const Partition<Real>& partition, double now,
+                                          Step<Real>& step) {
+    double to = std::min(step.to, horizon_);
+    if (shared_) to = std::min(to, now + sharedStretch());
+    const Motion motion = motionOf(bodies);
+    const Search search(motion, neighbours_, stamps_);
+    if (candidates_.update(bodies.read(), partition)) {
+        neighbours_.link(bodies.moving.size(), candidates_);
+        // Meetings do not depend on steps, so they are found for as long as the pairs last. What an
+        // event has led to at this very moment stays.
+        events_.queue.forgetAfter(now);
+        events_.queue.begin(to, eventOrder(motion.bodies));
+        findAll(search, now, horizon_);
+        step.counts.pairsTested += candidates_.size();
+        noteDensity(bodies.moving.size());
+    } else {
+        events_.queue.begin(to, eventOrder(motion.bodies));
     }
 
     using Loop = EventLoop<Real, Path>;
-    const EventWindow<Real> window{.to = to, .horizon = horizon_, .reach = reach};
+    const EventWindow window{.to = to, .horizon = horizon_, .bounds = bounds_};
     Loop loop(search, events_, window);
     const auto neighboursOf = [&](std::uint32_t row) { return neighbours_[row]; };
-    if constexpr (falls) loop.releaseFromChanged(from);
-    loop.findForChanged(from, neighboursOf);
-    events_.fastest = 0;
-    if (runShared(search, window, records, counts)) return to;
+    loop.releaseFromChanged(now);
+    loop.findForChanged(now, neighboursOf);
+    const std::uint64_t before = step.counts.contacts;
+    if (runShared(bodies, search, window, now, step)) {
+        eventsSince_ += step.counts.contacts - before;
+        return to;
+    }
     loop.prefetch();
     const std::uint64_t most =
-        counts.contacts + Loop::mostEventsPerBody * (bodies.moving.size() + 1);
+        step.counts.contacts + Loop::mostEventsPerBody * (bodies.moving.size() + 1);
     const auto count = [&](const PairEvent&) {
-        if (++counts.contacts > most) {
+        if (++step.counts.contacts > most) {
             throw Error("the law 'continuous' found more than " +
                         std::to_string(Loop::mostEventsPerBody) + " events per body in a step");
         }
         return true;
     };
     const auto collided = [&](const PairEvent&, const ContactRecord& record) {
-        ++counts.collisions;
-        if (records != nullptr) records->push_back(record);
+        ++step.counts.collisions;
+        if (step.keepContacts) records_.push_back(record);
     };
     const bool complete = loop.run(count, collided, neighboursOf);
-    fastest_ = std::max(fastest_, events_.fastest);
-    // Where it is not, the caller makes a partition that covers the new speed, and the search goes
-    // on there.
-    return complete ? to : loop.stoppedAt();
+    eventsSince_ += step.counts.contacts - before;
+    if (complete) return to;
+    // A body has become too fast; another partition covers it, and the search goes on there.
+    horizon_ = loop.stoppedAt();
+    return horizon_;
+}
+
+/// A stretch of time in which bodies stay so close to where they are that few concern each other,
+/// s.
+template <class Real, class Path>
+double EventDriven<Real, Path>::sharedStretch() const {
+    const double size = sizeSum_ / static_cast<double>(stamps_.size());
+    return size / (6 * gainOf() * fastest_);
+}
+
+/// How many bodies there are around each, from the pairs that the partition shows.
+template <class Real, class Path>
+void EventDriven<Real, Path>::noteDensity(std::size_t rows) {
+    const double life = life_;
+    const double size = sizeSum_ / static_cast<double>(rows);
+    const double gain = gainOf();
+    const double speeds = gain * (speedSum_ + static_cast<double>(rows) * gravityNow_ * life);
+    const double squares = gain * gain * squareSum_ + 2 * gain * gravityNow_ * life * speeds;
+    const double area = static_cast<double>(rows) * size * size + 4 * size * life * speeds +
+                        4 * life * life * squares;
+    if (area > 0) density_ = static_cast<double>(candidates_.size()) / area;
 }
 
 template <class Real, class Path>
-bool EventDriven<Real, Path>::runShared(const Search& search, const EventWindow<Real>& window,
-                                        std::vector<ContactRecord>* records,
-                                        ResolveCounts& counts) {
+bool EventDriven<Real, Path>::runShared(const LawBodies<Real>& bodies, const Search& search,
+                                        const EventWindow& window, double now, Step<Real>& step) {
     if constexpr (!falls) {
-        // Both bodies move by `reach` at most; rounding grows with how far anchors lie away, which
-        // is up to how far a body came in the run.
+        if (!shared_) return false;
+        // Both bodies get on by the fastest's way at most; rounding grows with how far anchors lie
+        // away, which is up to how far a body came in the run.
         constexpr double eps = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-        const double way = 2 * static_cast<double>(window.reach) +
-                           eps * (farthest_ + fastest_ * std::abs(window.to));
-        if (!shared_ || !shared_->run(search, events_, window, way, records, counts)) return false;
-        fastest_ = std::max(fastest_, events_.fastest);
-        return true;
+        const double fastest = gainOf() * fastest_;
+        const double way =
+            2 * fastest * (window.to - now) + eps * (farthest_ + fastest * std::abs(window.to));
+        std::vector<ContactRecord>* const records = step.keepContacts ? &records_ : nullptr;
+        return shared_->run(bodies.read(), search, events_, window, way, records, step.counts);
     }
     return false;
 }
@@ -214,28 +370,26 @@ bool EventDriven<Real, Path>::runShared(const Search& search, const EventWindow<
 template <class Real, class Path>
 std::size_t EventDriven<Real, Path>::bytes() const {
     std::size_t sum = candidates_.bytes() + neighbours_.bytes() + events_.bytes() +
+                      ownBounds_.capacity() * sizeof(double) + ownReach_.capacity() * sizeof(Real) +
                       stamps_.capacity() * sizeof(std::uint32_t) +
-                      found_.capacity() * sizeof(Found);
+                      found_.capacity() * sizeof(Found) +
+                      records_.capacity() * sizeof(ContactRecord);
     for (const Found& found : found_) sum += found.events.bytes();
     return shared_ ? sum + shared_->bytes() : sum;
 }
 
 template <class Real>
-std::unique_ptr<ContinuousLaw<Real>> makeContinuousLaw(const SimulationConfig& config,
-                                                       const ThreadTeam& team) {
-    if (config.resolver != ResolverKind::Sequential && config.resolver != ResolverKind::Threads) {
-        throw NotAvailable("the law 'continuous' does not run on the resolver '" +
-                           std::string(name(config.resolver)) + "'");
+std::unique_ptr<ContactLaw<Real>> makeEventDriven(const SimulationConfig& config,
+                                                  const ThreadTeam& team) {
+    if (config.step.gravity == Vec2(0, 0)) {
+        return std::make_unique<EventDriven<Real, StraightPath>>(config.step, team);
     }
-    if (config.gravity == Vec2(0, 0)) {
-        return std::make_unique<EventDriven<Real, StraightPath>>(config, team);
-    }
-    return std::make_unique<EventDriven<Real, FallingPath>>(config, team);
+    return std::make_unique<EventDriven<Real, FallingPath>>(config.step, team);
 }
 
-template std::unique_ptr<ContinuousLaw<double>> makeContinuousLaw(const SimulationConfig&,
-                                                                  const ThreadTeam&);
-template std::unique_ptr<ContinuousLaw<float>> makeContinuousLaw(const SimulationConfig&,
-                                                                 const ThreadTeam&);
+template std::unique_ptr<ContactLaw<double>> makeEventDriven(const SimulationConfig&,
+                                                             const ThreadTeam&);
+template std::unique_ptr<ContactLaw<float>> makeEventDriven(const SimulationConfig&,
+                                                            const ThreadTeam&);
 
 }  // namespace quadrille

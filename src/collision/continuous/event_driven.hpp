@@ -1,67 +1,102 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "collision/continuous/continuous_law.hpp"
 #include "collision/continuous/event_loop.hpp"
 #include "collision/continuous/shared_events.hpp"
-#include "collision/continuous/trajectories.hpp"
-#include "collision/pairs/candidate_lists.hpp"
+#include "collision/law.hpp"
 #include "collision/pairs/neighbours.hpp"
+#include "collision/pairs/threads_candidate_pairs.hpp"
+#include "collision/rules/paths.hpp"
 
 namespace quadrille {
 
-/// The law `continuous`, for paths that are straight or fall.
+/// The law `continuous`, for paths that are straight or fall: all events of a step in the order of
+/// time, found again for the bodies that an event changed (event-driven simulation of hard bodies;
+/// Alder & Wainwright 1959).
 ///
 /// Positions follow from anchors that change in events only, and an event's time from the
 /// trajectories of its bodies only, so the state does not depend on dt; nor, since events are
 /// carried out in an order that is complete, on who finds them.
 template <class Real, class Path>
-class EventDriven final : public ContinuousLaw<Real> {
+class EventDriven final : public ContactLaw<Real> {
   public:
-    EventDriven(const SimulationConfig& config, const ThreadTeam& team);
+    /// `team` must outlive the law.
+    EventDriven(const StepSettings& settings, const ThreadTeam& team);
 
-    void anchor(const BodyView<Real>& bodies, double now) override;
-    Real reach(const BodyView<Real>& bodies, double from, double to) override;
-    double advance(const BodyView<Real>& bodies, const Partition<Real>& partition, Real reach,
-                   double from, double to, std::vector<ContactRecord>* records,
-                   ResolveCounts& counts) override;
-    bool place(const BodyView<Real>& bodies, double t) const override;
+    void begin(const LawBodies<Real>& bodies, Step<Real>& step) override;
+    std::optional<Reach<Real>> reach(const LawBodies<Real>& bodies, double now, double to) override;
+    double advance(const LawBodies<Real>& bodies, const Partition<Real>& partition, double now,
+                   Step<Real>& step) override;
+    std::span<const ContactRecord> contacts() override { return records_; }
     std::size_t bytes() const override;
 
   private:
     static constexpr bool falls = Path::falls;
+    using Motion = ExactMotion<Real, Path>;
     using Search = EventSearch<Real, Path>;
 
     struct alignas(64) Found {
         EventQueue events;
     };
 
-    void survey(const BodyView<Real>& bodies);
+    void takeOver(const LawBodies<Real>& bodies, double now);
+    void survey(const LawBodies<Real>& bodies);
+    template <class Function>
+    double sumOver(std::size_t rows, Function&& function) const;
+    double chooseLife(std::size_t rows, double now) const;
+    void noteDensity(std::size_t rows);
+    double sharedStretch() const;
+    double gravityAlong(int axis) const { return axis == 0 ? gravityX_ : gravityY_; }
+    /// A light body leaves a heavy one at up to twice the heavy one's speed.
+    double gainOf() const { return uniformMass_ ? 1 : 2; }
     void findAll(const Search& search, double from, double to);
-    bool runShared(const Search& search, const EventWindow<Real>& window,
-                   std::vector<ContactRecord>* records, ResolveCounts& counts);
+    double runEvents(const LawBodies<Real>& bodies, const Partition<Real>& partition, double now,
+                     Step<Real>& step);
+    bool runShared(const LawBodies<Real>& bodies, const Search& search, const EventWindow& window,
+                   double now, Step<Real>& step);
+    Motion motionOf(const LawBodies<Real>& bodies) const;
+    bool place(const LawBodies<Real>& bodies, double t) const;
 
     const ThreadTeam& team_;
-    std::array<double, 2> gravity_;  // px/s^2
+    double gravityX_, gravityY_;  // px/s^2
     double restitution_;
 
     std::optional<std::uint64_t> revision_;  // of the bodies that all below is about
-    bool surveyed_ = false;                  // whether these two are bounds:
-    double fastest_ = 0;                     // px/s, along an axis
-    double farthest_ = 0;                    // px, from the origin along an axis
-    double horizon_ = -1;                    // s; all meetings up to here have been found
+    bool uniformMass_ = true;
 
-    CandidateLists<Real> candidates_;
+    // As the bodies were when the partition was asked for:
+    double fastest_ = 0;                   // px/s, along an axis
+    double farthest_ = 0;                  // px, from the origin along an axis; up to the horizon
+    double speedSum_ = 0, squareSum_ = 0;  // over the bodies
+    double sizeSum_ = 0;                   // px; a body's size is the mean of width and height
+    double gravityNow_ = 0;                // px/s^2, that bodies feel that do not rest
+
+    double partitionTime_ = 0;  // s; the partition covers the bodies from here
+    double horizon_ = -1;       // to here, and all meetings up to here have been found
+    SpeedBounds bounds_;        // as long as these hold
+    std::vector<double> ownBounds_;
+    std::vector<Real> ownReach_;
+    double life_ = 0;                // s, of the last partition, if no event ends it before
+    double density_ = 0;             // candidate pairs a px^2 around a body
+    std::uint64_t eventsSince_ = 0;  // partitionTime_
+
+    ThreadsCandidatePairs<Real> candidates_;
     Neighbours neighbours_;
     std::vector<std::uint32_t> stamps_;  // changes of each body so far
     std::vector<Found> found_;           // by each worker
     EventLoopState events_;
     std::unique_ptr<SharedEvents<Real>> shared_;  // null where events take one thread
+    std::vector<ContactRecord> records_;
 };
+
+/// The law for a configuration: paths fall where there is gravity.
+template <class Real>
+std::unique_ptr<ContactLaw<Real>> makeEventDriven(const SimulationConfig& config,
+                                                  const ThreadTeam& team);
 
 }  // namespace quadrille

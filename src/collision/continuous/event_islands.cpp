@@ -11,12 +11,6 @@ namespace quadrille {
 
 namespace {
 
-/// To claim so many bodies costs a little more than to carry out the event.
-constexpr std::size_t mostBodiesPerEvent = 8;
-
-/// The part of the events that one worker may have, in quarters.
-constexpr std::size_t mostQuarters = 3;
-
 /// How much of the mean one worker may have before the islands are dealt out anew, in quarters.
 constexpr std::size_t unevenQuarters = 5;
 
@@ -32,8 +26,7 @@ bool EventIslands<Real>::split(const BodyView<Real>& bodies, const Neighbours& n
         rowCount_ = std::max(bodies.moving.size(), rowCount_ + rowCount_ / 2);
         rows_ = std::make_unique<Row[]>(rowCount_);
     }
-    const std::size_t most =
-        team_.eager() ? bodies.moving.size() : mostBodiesPerEvent * events.size();
+    const std::size_t most = team_.thresholds().bodiesPerEvent * events.size();
     claimedCount_.store(0, std::memory_order_relaxed);
     team_.run(team_.size(), [&](unsigned worker) {
         const std::size_t begin = events.size() * worker / team_.size();
@@ -62,16 +55,16 @@ void EventIslands<Real>::flood(const BodyView<Real>& bodies, const Neighbours& n
     for (const PairEvent& event : events) {
         claim(event.a, claimed);
         if (event.withStatic()) continue;
-        claim(event.b, claimed);
-        unite(event.a, event.b);
+        claim(event.b.row(), claimed);
+        unite(event.a, event.b.row());
     }
 #if defined(__GNUC__)
     // All at once: one after the other, each would be waited for.
     for (const std::uint32_t row : claimed) {
-        for (const std::uint32_t b : neighbours[row]) {
-            if ((b & PairEvent::staticBit) != 0) continue;
-            __builtin_prefetch(m.x.data() + b);
-            __builtin_prefetch(m.y.data() + b);
+        for (const BodyRef b : neighbours[row]) {
+            if (b.isStatic()) continue;
+            __builtin_prefetch(m.x.data() + b.row());
+            __builtin_prefetch(m.y.data() + b.row());
         }
     }
 #endif
@@ -79,11 +72,11 @@ void EventIslands<Real>::flood(const BodyView<Real>& bodies, const Neighbours& n
         std::size_t reported = 0;
         for (std::size_t i = 0; i < claimed.size(); ++i) {
             const std::uint32_t row = claimed[i];
-            for (const std::uint32_t b : neighbours[row]) {
-                if ((b & PairEvent::staticBit) != 0 || !close(sizes, row, b)) continue;
-                claim(b, claimed);
+            for (const BodyRef b : neighbours[row]) {
+                if (b.isStatic() || !close(sizes, row, b.row())) continue;
+                claim(b.row(), claimed);
                 // Whoever claimed b sees this pair, too.
-                if (row < b) unite(row, b);
+                if (row < b.row()) unite(row, b.row());
             }
             if (claimed.size() < reported + reportEvery) continue;
             const std::size_t news = claimed.size() - reported;
@@ -162,7 +155,7 @@ bool EventIslands<Real>::distribute(std::span<const PairEvent> events) {
             rows_[island.root].worker = static_cast<std::uint16_t>(least - loads_.begin());
         }
     }
-    if (!team_.eager() && 4 * largest() > mostQuarters * events.size()) return false;
+    if (4 * largest() > team_.thresholds().eventQuarters * events.size()) return false;
     for (Worker& worker : workers_) worker.events.clear();
     for (const PairEvent& event : events) {
         workers_[rows_[rootOf(event.a)].worker].events.push_back(event);

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
+#include <quadrille/body_ref.hpp>
 
-#include "collision/continuous/event_queue.hpp"
 #include "collision/pairs/neighbours.hpp"
+#include "collision/rules/event_order.hpp"
 #include "parallel/thread_team.hpp"
 
 namespace quadrille {
@@ -57,7 +58,7 @@ class EventIslands {
     std::size_t bytes() const;
 
   private:
-    static constexpr std::uint32_t none = PairEvent::staticBit;  // no row
+    static constexpr std::uint32_t none = BodyRef{}.bits;  // no row
 
     struct Row {
         std::atomic<std::uint32_t> parent{none};  // towards the root of the island; itself there

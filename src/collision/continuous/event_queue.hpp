@@ -2,38 +2,22 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/event_order.hpp"
 
 namespace quadrille {
 
-/// What is going to happen to a pair of bodies, unless something happens to one of them before.
-struct PairEvent {
-    static constexpr std::uint32_t staticBit = 0x8000'0000u;
-
-    double time;                   ///< s
-    std::uint32_t a, b;            ///< rows; b with staticBit for a static body
-    std::uint32_t stampA, stampB;  ///< of the trajectories that it was found from
-    std::uint8_t axes;             ///< of the contact; 0 for a pair that overlaps already
-    bool release;                  ///< the axes' support comes to its end
-
-    bool withStatic() const { return (b & staticBit) != 0; }
-};
-
-/// Events to come, the earliest first; ties go by the hash of the pair's entities, then by its rows
-/// and by what happens, so that the order in which they are pushed does not matter. Those of the
-/// present step lie in a heap, which stays small that way; later ones in no order.
+/// Events to come, the earliest first in an order that is complete, so that the one in which they
+/// are pushed does not matter. Those of the present step lie in a heap, which stays small that way;
+/// later ones in no order.
 class EventQueue {
   public:
-    /// Goes on to the step that ends at `to`. The entities are those of the rows of moving and of
-    /// static bodies.
-    void begin(double to, std::span<const std::uint32_t> moving,
-               std::span<const std::uint32_t> fixed) {
+    /// Goes on to the step that ends at `to`, in s.
+    void begin(double to, const EventOrder& order) {
         end_ = to;
-        order_ = {moving.data(), fixed.data()};
+        order_ = order;
         std::size_t kept = 0;
         for (const PairEvent& event : later_) {
             if (event.time > to) {
@@ -68,6 +52,13 @@ class EventQueue {
     /// The events known for the present step, in no order.
     std::span<const PairEvent> due() const { return heap_; }
 
+    /// Forgets what is later than a time.
+    void forgetAfter(double time) {
+        const auto later = [time](const PairEvent& event) { return event.time > time; };
+        std::erase_if(heap_, later);
+        std::erase_if(later_, later);
+    }
+
     void clear() {
         heap_.clear();
         later_.clear();
@@ -100,31 +91,7 @@ class EventQueue {
     std::size_t bytes() const { return (heap_.capacity() + later_.capacity()) * sizeof(PairEvent); }
 
   private:
-    /// Whether p comes after q.
-    struct Order {
-        const std::uint32_t* moving = nullptr;
-        const std::uint32_t* fixed = nullptr;
-
-        std::uint32_t priority(const PairEvent& e) const {
-            return pairPriority(moving[e.a],
-                                e.withStatic() ? fixed[e.b & ~PairEvent::staticBit] : moving[e.b]);
-        }
-        bool operator()(const PairEvent& p, const PairEvent& q) const {
-            if (p.time != q.time) return p.time > q.time;
-            return tieIsLater(p, q);
-        }
-        bool tieIsLater(const PairEvent& p, const PairEvent& q) const {
-            const std::uint32_t first = priority(p);
-            const std::uint32_t second = priority(q);
-            if (first != second) return first > second;
-            if (p.a != q.a) return p.a > q.a;
-            if (p.b != q.b) return p.b > q.b;
-            if (p.axes != q.axes) return p.axes > q.axes;
-            return p.release && !q.release;
-        }
-    };
-
-    Order order_;
+    EventOrder order_;
     double end_ = -1;  // s
     std::vector<PairEvent> heap_;
     std::vector<PairEvent> later_;

@@ -5,28 +5,18 @@
 
 namespace quadrille {
 
-namespace {
-
-/// From how many events on a step is shared out; each takes about 0.4 us.
-constexpr std::size_t worthSharing = 200;
-
-/// Steps without a try, at most.
-constexpr unsigned longestPause = 64;
-
-}  // namespace
-
 template <class Real>
-bool SharedEvents<Real>::run(const Search& search, EventLoopState& whole,
-                             const EventWindow<Real>& window, double way,
+bool SharedEvents<Real>::run(const BodyView<Real>& bodies, const Search& search,
+                             EventLoopState& whole, const EventWindow& window, double way,
                              std::vector<ContactRecord>* records, ResolveCounts& counts) {
-    if (team_.workersFor(whole.queue.due().size(), worthSharing) == 1) return false;
-    if (waiting_ > 0 && !team_.eager()) {
+    if (team_.workersFor(whole.queue.due().size(), &Thresholds::events) == 1) return false;
+    if (waiting_ > 0) {
         --waiting_;
         return false;
     }
-    if (!tryRun(search, whole, window, way, records != nullptr)) {
+    if (!tryRun(bodies, search, whole, window, way, records != nullptr)) {
         // Most scenes stay as dense as they are.
-        pause_ = std::clamp(2 * pause_, 1u, longestPause);
+        pause_ = std::min(std::max(2 * pause_, 1u), team_.thresholds().longestPause);
         waiting_ = pause_;
         return false;
     }
@@ -36,9 +26,9 @@ bool SharedEvents<Real>::run(const Search& search, EventLoopState& whole,
 }
 
 template <class Real>
-bool SharedEvents<Real>::tryRun(const Search& search, EventLoopState& whole,
-                                const EventWindow<Real>& window, double way, bool record) {
-    const BodyView<Real>& bodies = search.motion().bodies();
+bool SharedEvents<Real>::tryRun(const BodyView<Real>& bodies, const Search& search,
+                                EventLoopState& whole, const EventWindow& window, double way,
+                                bool record) {
     due_.clear();
     for (const PairEvent& event : whole.queue.due()) {
         if (search.isCurrent(event)) due_.push_back(event);
@@ -48,7 +38,7 @@ bool SharedEvents<Real>::tryRun(const Search& search, EventLoopState& whole,
         team_.run(team_.size(),
                   [&](unsigned worker) { runShare(search, whole, window, record, worker); });
     }
-    const std::uint64_t most = Loop::mostEventsPerBody * (bodies.moving.size() + 1);
+    const std::uint64_t most = Loop::mostEventsPerBody * (search.rows() + 1);
     const bool complete = split && allComplete(most);
     team_.run(team_.size(), [&](unsigned worker) {
         if (complete) findAcross(search, window, shares_[worker]);
@@ -61,27 +51,27 @@ bool SharedEvents<Real>::tryRun(const Search& search, EventLoopState& whole,
 
 template <class Real>
 void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& whole,
-                                  const EventWindow<Real>& window, bool record, unsigned worker) {
+                                  const EventWindow& window, bool record, unsigned worker) {
     Share& own = shares_[worker];
-    const auto& m = search.motion().moving();
+    const auto& m = search.motion().bodies.moving;
     own.before.clear();
     own.across.clear();
     own.records.clear();
     own.counts = {};
     own.state.queue.beginShare(whole.queue, islands_.eventsOf(worker));
     own.state.changed.clear();
-    own.state.fastest = 0;
     own.state.instant = whole.instant;
     own.state.separated = whole.separated;
 
-    const std::uint64_t most = Loop::mostEventsPerBody * (m.size() + 1);
+    const std::uint64_t most = Loop::mostEventsPerBody * (search.rows() + 1);
     const auto admit = [&](const PairEvent& event) {
         if (++own.counts.contacts > most) return false;
         if (!islands_.belongsTo(event.a, worker)) return false;
-        own.before.push_back({event.a, search.stamp(event.a), m.anchors->rows[event.a]});
+        own.before.push_back({event.a, search.stamp(event.a), m.anchors[event.a]});
         if (event.withStatic()) return true;
-        if (!islands_.belongsTo(event.b, worker)) return false;
-        own.before.push_back({event.b, search.stamp(event.b), m.anchors->rows[event.b]});
+        const std::uint32_t b = event.b.row();
+        if (!islands_.belongsTo(b, worker)) return false;
+        own.before.push_back({b, search.stamp(b), m.anchors[b]});
         return true;
     };
     const auto collided = [&](const PairEvent& event, const ContactRecord& made) {
@@ -92,10 +82,10 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
             own.records.empty() || own.state.queue.isLater(event, own.records.back().after);
         own.records.push_back({follows ? event : own.records.back().after, 0, made});
     };
-    const auto othersOf = [&](std::uint32_t row) -> std::span<const std::uint32_t> {
+    const auto othersOf = [&](std::uint32_t row) -> std::span<const BodyRef> {
         own.others.clear();
-        for (const std::uint32_t b : search.neighbours()[row]) {
-            if (!Search::Motion::isStatic(b) && islands_.belongsToAnother(b, worker)) {
+        for (const BodyRef b : search.neighbours()[row]) {
+            if (!b.isStatic() && islands_.belongsToAnother(b.row(), worker)) {
                 own.across.push_back({row, search.stamp(row), b});
             } else {
                 own.others.push_back(b);
@@ -114,11 +104,11 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
 /// Finds what bodies of this worker do after the step with those of others. Of two bodies that both
 /// have changed, the first one's worker does it.
 template <class Real>
-void SharedEvents<Real>::findAcross(const Search& search, const EventWindow<Real>& window,
-                                    Share& share) {
+void SharedEvents<Real>::findAcross(const Search& search, const EventWindow& window, Share& share) {
     for (const Across& across : share.across) {
         if (search.stamp(across.row) != across.stamp) continue;  // it comes again
-        if (islands_.isChanged(across.other) && across.other < across.row) continue;
+        const std::uint32_t other = across.other.row();
+        if (islands_.isChanged(other) && other < across.row) continue;
         search.findFor(across.row, {&across.other, 1}, window.to, window.horizon,
                        share.state.queue);
     }
@@ -137,11 +127,11 @@ bool SharedEvents<Real>::allComplete(std::uint64_t mostEvents) const {
 
 template <class Real>
 void SharedEvents<Real>::undo(const Search& search) {
-    const auto& m = search.motion().moving();
+    const auto& m = search.motion().bodies.moving;
     for (const Share& share : shares_) {
         for (std::size_t i = share.before.size(); i-- > 0;) {
             const Before& before = share.before[i];
-            m.anchors->rows[before.row] = before.anchor;
+            m.anchors[before.row] = before.anchor;
             m.vx[before.row] = before.anchor.vx;
             m.vy[before.row] = before.anchor.vy;
             search.stamp(before.row) = before.stamp;
@@ -157,7 +147,6 @@ void SharedEvents<Real>::finish(EventLoopState& whole, std::vector<ContactRecord
     for (Share& share : shares_) {
         EventLoopState& state = share.state;
         whole.queue.take(state.queue);
-        whole.fastest = std::max(whole.fastest, state.fastest);
         counts.contacts += share.counts.contacts;
         counts.collisions += share.counts.collisions;
         records_.insert(records_.end(), share.records.begin(), share.records.end());
@@ -189,7 +178,7 @@ std::size_t SharedEvents<Real>::bytes() const {
     for (const Share& share : shares_) {
         sum += share.state.bytes() + share.before.capacity() * sizeof(Before) +
                share.across.capacity() * sizeof(Across) +
-               share.others.capacity() * sizeof(std::uint32_t) +
+               share.others.capacity() * sizeof(BodyRef) +
                share.records.capacity() * sizeof(Recorded);
     }
     return sum;

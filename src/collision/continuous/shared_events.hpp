@@ -7,7 +7,7 @@
 #include "collision/continuous/event_islands.hpp"
 #include "collision/continuous/event_loop.hpp"
 #include "collision/continuous/event_search.hpp"
-#include "collision/resolver.hpp"
+#include "collision/law.hpp"
 #include "parallel/thread_team.hpp"
 
 namespace quadrille {
@@ -37,8 +37,9 @@ class SharedEvents {
     /// out; returns whether it did, and has changed nothing if not. Two bodies meet in the window
     /// only if along both axes they are less than their size and `way`, in px, apart when it
     /// begins. Collisions go to `records`, in canonical order, unless it is null.
-    bool run(const Search& search, EventLoopState& whole, const EventWindow<Real>& window,
-             double way, std::vector<ContactRecord>* records, ResolveCounts& counts);
+    bool run(const BodyView<Real>& bodies, const Search& search, EventLoopState& whole,
+             const EventWindow& window, double way, std::vector<ContactRecord>* records,
+             ResolveCounts& counts);
 
     std::size_t bytes() const;
 
@@ -52,7 +53,8 @@ class SharedEvents {
     };
     /// A body that was changed, and one of another worker that it may meet after the step.
     struct Across {
-        std::uint32_t row, stamp, other;
+        std::uint32_t row, stamp;
+        BodyRef other;
     };
     struct Recorded {
         PairEvent after;  // the last in canonical order of the events so far
@@ -63,17 +65,17 @@ class SharedEvents {
         EventLoopState state;
         std::vector<Before> before;
         std::vector<Across> across;
-        std::vector<std::uint32_t> others;
+        std::vector<BodyRef> others;
         std::vector<Recorded> records;
         ResolveCounts counts;
         bool complete = false;
     };
 
-    bool tryRun(const Search& search, EventLoopState& whole, const EventWindow<Real>& window,
-                double way, bool record);
-    void runShare(const Search& search, const EventLoopState& whole,
-                  const EventWindow<Real>& window, bool record, unsigned worker);
-    void findAcross(const Search& search, const EventWindow<Real>& window, Share& share);
+    bool tryRun(const BodyView<Real>& bodies, const Search& search, EventLoopState& whole,
+                const EventWindow& window, double way, bool record);
+    void runShare(const Search& search, const EventLoopState& whole, const EventWindow& window,
+                  bool record, unsigned worker);
+    void findAcross(const Search& search, const EventWindow& window, Share& share);
     bool allComplete(std::uint64_t mostEvents) const;
     void undo(const Search& search);
     void finish(EventLoopState& whole, std::vector<ContactRecord>* records, ResolveCounts& counts);

@@ -15,7 +15,8 @@ namespace quadrille {
 template <class Real>
 class CanonicalSort {
   public:
-    void operator()(std::vector<PendingContact<Real>>& contacts, Real dt) {
+    void operator()(std::vector<PendingContact<Real>>& contacts, const CanonicalOrder& order,
+                    Real dt) {
         if (contacts.size() < 2) return;
         const auto atStart = static_cast<std::uint64_t>(std::count_if(
             contacts.begin(), contacts.end(), [](const auto& c) { return c.sinceStart == 0; }));
@@ -44,7 +45,7 @@ class CanonicalSort {
             const auto first = contacts.begin() + ends_[b];
             const auto last =
                 b + 1 < ends_.size() ? contacts.begin() + ends_[b + 1] : contacts.end();
-            if (last - first > 1) std::sort(first, last, before<Real>);
+            if (last - first > 1) std::sort(first, last, order);
         }
     }
 

@@ -30,7 +30,7 @@ void ContactGraph<Real>::reserve(std::size_t contacts, std::size_t movingCount) 
         clean_ = false;
     }
     if (!clean_) {
-        team_.shares(headCapacity_, worthwhile::streamed,
+        team_.shares(headCapacity_, &Thresholds::streamed,
                      [&](std::size_t begin, std::size_t end, unsigned) {
                          for (std::size_t i = begin; i < end; ++i) {
                              heads_[i].store(none, std::memory_order_relaxed);
@@ -45,24 +45,23 @@ void ContactGraph<Real>::link(std::span<const ContactList<Real>> lists, std::siz
     for (const auto& list : lists) count_ += list.contacts.size();
     reserve(count_, movingCount);
     clean_ = false;
-    team_.shares(count_, 4 * worthwhile::resolved,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     std::size_t start = 0;
-                     for (const auto& [list] : lists) {
-                         const std::size_t from = std::clamp(begin, start, start + list.size());
-                         const std::size_t to = std::clamp(end, start, start + list.size());
-                         for (std::size_t i = from; i < to; ++i) {
-                             const PendingContact<Real>& c = list[i - start];
-                             const bool two = !isStatic(c);
-                             nodes_[i].contact = c;
-                             nodes_[i].waiting.store(two ? 2 : 1, std::memory_order_relaxed);
-                             nodes_[i].next[1] = none;
-                             enter(c.a, static_cast<Slot>(2 * i));
-                             if (two) enter(c.b, static_cast<Slot>(2 * i + 1));
-                         }
-                         start += list.size();
-                     }
-                 });
+    team_.shares(count_, &Thresholds::linked, [&](std::size_t begin, std::size_t end, unsigned) {
+        std::size_t start = 0;
+        for (const auto& [list] : lists) {
+            const std::size_t from = std::clamp(begin, start, start + list.size());
+            const std::size_t to = std::clamp(end, start, start + list.size());
+            for (std::size_t i = from; i < to; ++i) {
+                const PendingContact<Real>& c = list[i - start];
+                const bool two = !c.b.isStatic();
+                nodes_[i].contact = c;
+                nodes_[i].waiting.store(two ? 2 : 1, std::memory_order_relaxed);
+                nodes_[i].next[1] = none;
+                enter(c.a, static_cast<Slot>(2 * i));
+                if (two) enter(c.b.row(), static_cast<Slot>(2 * i + 1));
+            }
+            start += list.size();
+        }
+    });
 }
 
 /// The lists are not in order yet, and begin with whatever came last.
@@ -73,14 +72,15 @@ void ContactGraph<Real>::enter(std::uint32_t body, Slot slot) {
 
 /// Puts a list in canonical order and takes out duplicates. Returns its first slot.
 template <class Real>
-auto ContactGraph<Real>::sorted(Slot first, std::vector<Entry>& list) -> Slot {
+auto ContactGraph<Real>::sorted(Slot first, const CanonicalOrder& before, std::vector<Entry>& list)
+    -> Slot {
     if (nodes_[first / 2].next[first % 2] == none) return first;
     list.clear();
     for (Slot slot = first; slot != none; slot = nodes_[slot / 2].next[slot % 2]) {
         list.push_back({nodes_[slot / 2].contact, slot});
     }
     // Duplicates in the order of their slots, so that both bodies keep the same one.
-    std::sort(list.begin(), list.end(), [](const Entry& p, const Entry& q) {
+    std::sort(list.begin(), list.end(), [&](const Entry& p, const Entry& q) {
         return before(p.contact, q.contact) || (!before(q.contact, p.contact) && p.slot < q.slot);
     });
     list.erase(
@@ -106,13 +106,14 @@ void ContactGraph<Real>::release(Slot slot, Worker& worker) {
 }
 
 template <class Real>
-void ContactGraph<Real>::run(const Bodies<Real>& bodies, const StepParameters<Real>& step,
-                             Worker& worker) {
+void ContactGraph<Real>::run(const Bodies<Real>& bodies, const Step<Real>& step, Worker& worker) {
     while (!worker.ready.empty()) {
         Node& node = nodes_[worker.ready.back()];
         worker.ready.pop_back();
         ++worker.contacts;
-        worker.collisions += resolveContact(bodies, node.contact, step);
+        const auto outcome = resolveContact(bodies, node.contact, step.parameters);
+        worker.collisions += outcome.collided();
+        if (step.keepContacts) worker.log.add(node.contact, outcome);
         for (const Slot next : node.next) {
             if (next != none) release(next, worker);
         }
@@ -120,8 +121,9 @@ void ContactGraph<Real>::run(const Bodies<Real>& bodies, const StepParameters<Re
 }
 
 template <class Real>
-ResolveCounts ContactGraph<Real>::resolve(const Bodies<Real>& bodies,
-                                          const StepParameters<Real>& step) {
+void ContactGraph<Real>::resolve(const Bodies<Real>& bodies, Step<Real>& step,
+                                 ContactLog<Real>& log) {
+    const CanonicalOrder order = canonicalOrder(bodies);
     for (Worker& worker : workers_) {
         worker.ready.clear();
         worker.contacts = worker.collisions = 0;
@@ -130,26 +132,25 @@ ResolveCounts ContactGraph<Real>::resolve(const Bodies<Real>& bodies,
         // The contact that stands first in a list sees to the list.
         if (heads_[body].load(std::memory_order_relaxed) != slot) return;
         heads_[body].store(none, std::memory_order_relaxed);
-        release(sorted(slot, worker.list), worker);
+        release(sorted(slot, order, worker.list), worker);
         run(bodies, step, worker);
     };
-    team_.blocks(team_.workersFor(count_, worthwhile::resolved), count_, contactBlock,
+    team_.blocks(team_.workersFor(count_, &Thresholds::resolved), count_, contactBlock,
                  [&](std::size_t begin, std::size_t end, unsigned w) {
                      for (std::size_t i = begin; i < end; ++i) {
                          const PendingContact<Real>& c = nodes_[i].contact;
                          const auto slot = static_cast<Slot>(2 * i);
                          runListFrom(c.a, slot, workers_[w]);
-                         if (isStatic(c)) continue;
-                         runListFrom(c.b, slot + 1, workers_[w]);
+                         if (c.b.isStatic()) continue;
+                         runListFrom(c.b.row(), slot + 1, workers_[w]);
                      }
                  });
     clean_ = true;
-    ResolveCounts counts;
-    for (const Worker& worker : workers_) {
-        counts.contacts += worker.contacts;
-        counts.collisions += worker.collisions;
+    for (Worker& worker : workers_) {
+        step.counts.contacts += worker.contacts;
+        step.counts.collisions += worker.collisions;
+        log.take(worker.log);
     }
-    return counts;
 }
 
 template <class Real>
@@ -157,8 +158,8 @@ std::size_t ContactGraph<Real>::bytes() const {
     std::size_t sum = nodeCapacity_ * sizeof(Node) + headCapacity_ * sizeof(Slot) +
                       workers_.capacity() * sizeof(Worker);
     for (const Worker& worker : workers_) {
-        sum +=
-            worker.list.capacity() * sizeof(Slot) + worker.ready.capacity() * sizeof(std::uint32_t);
+        sum += worker.log.bytes() + worker.list.capacity() * sizeof(Slot) +
+               worker.ready.capacity() * sizeof(std::uint32_t);
     }
     return sum;
 }

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "collision/resolver.hpp"
+#include "collision/discrete/contact_log.hpp"
+#include "collision/law.hpp"
 #include "collision/rules/impulse_contact.hpp"
 #include "parallel/thread_team.hpp"
 
@@ -37,8 +38,9 @@ class ContactGraph {
     /// Error if there are more than 31 bits can count.
     void link(std::span<const ContactList<Real>> lists, std::size_t movingCount);
 
-    /// Carries them out. Returns how many there were, and how many exchanged an impulse.
-    ResolveCounts resolve(const Bodies<Real>& bodies, const StepParameters<Real>& step);
+    /// Carries them out, and adds to the step's counts how many there were and how many exchanged
+    /// an impulse. They go to `log` in no order if the step keeps them.
+    void resolve(const Bodies<Real>& bodies, Step<Real>& step, ContactLog<Real>& log);
 
     std::size_t bytes() const;
 
@@ -59,14 +61,15 @@ class ContactGraph {
     struct alignas(64) Worker {
         std::vector<Entry> list;           ///< being sorted
         std::vector<std::uint32_t> ready;  ///< contacts to be run
+        ContactLog<Real> log;
         std::uint64_t contacts, collisions;
     };
 
     void reserve(std::size_t contacts, std::size_t movingCount);
     void enter(std::uint32_t body, Slot slot);
-    Slot sorted(Slot first, std::vector<Entry>& list);
+    Slot sorted(Slot first, const CanonicalOrder& before, std::vector<Entry>& list);
     void release(Slot slot, Worker& worker);
-    void run(const Bodies<Real>& bodies, const StepParameters<Real>& step, Worker& worker);
+    void run(const Bodies<Real>& bodies, const Step<Real>& step, Worker& worker);
 
     const ThreadTeam& team_;
     std::vector<Worker> workers_;

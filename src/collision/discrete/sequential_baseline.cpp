@@ -1,61 +1,45 @@
 #include "collision/discrete/sequential_baseline.hpp"
 
-#include "collision/discrete/impulse_bodies.hpp"
+#include "collision/make_record.hpp"
 #include "collision/rules/baseline_contact.hpp"
 
 namespace quadrille {
 
 template <class Real>
-ResolveCounts SequentialBaseline<Real>::resolve(const BodyView<Real>& view,
-                                                const Partition<Real>& partition,
-                                                const StepParameters<Real>& step,
-                                                std::vector<ContactRecord>* records) {
-    const auto movingCount = static_cast<std::uint32_t>(view.moving.size());
-    futureX_.resize(movingCount);
-    futureY_.resize(movingCount);
+void SequentialBaseline<Real>::resolve(const LawBodies<Real>& view,
+                                       const Partition<Real>& partition, Step<Real>& step) {
+    futureX_.resize(view.moving.size());
+    futureY_.resize(view.moving.size());
     hit_.clear();
-    const BaselineBodies<Real> bodies{makeBodies(view), futureX_.data(), futureY_.data()};
+    records_.clear();
+    const BaselineBodies<Real> bodies{view.plain(), futureX_.data(), futureY_.data()};
+    const Real restitution = step.parameters.restitution;
 
-    ResolveCounts counts;
-    const auto record = [&](std::uint32_t a, std::int64_t b, const Penetration<Real>& p) {
+    const auto resolvePair = [&](std::uint32_t a, BodyRef b) {
+        if (!overlap(bodies.now, a, b)) return;
+        const BaselineOutcome<Real> outcome = resolveBaseline(bodies, a, b, restitution);
         hit_.push_back(a);
-        if (b >= 0) hit_.push_back(static_cast<std::uint32_t>(b));
-        ++counts.contacts;
-        ++counts.collisions;
-        if (records != nullptr) records->push_back(makeRecord(a, b, p, step));
-    };
-
-    const auto resolveMoving = [&](std::uint32_t a, std::uint32_t b) {
-        if (!movingOverlap(bodies.now, a, b)) return;
-        record(a, static_cast<std::int64_t>(b), resolveBaseline(bodies, a, b, step.restitution));
-    };
-
-    const auto resolveStatic = [&](std::uint32_t a, std::uint32_t k) {
-        if (!staticOverlap(bodies.now, a, k)) return;
-        record(a, -1 - static_cast<std::int64_t>(k),
-               resolveBaselineStatic(bodies, a, k, step.restitution));
+        if (!b.isStatic()) hit_.push_back(b.row());
+        ++step.counts.contacts;
+        ++step.counts.collisions;
+        if (step.keepContacts) records_.push_back(makeRecord(a, b, outcome, step.parameters));
     };
 
     const Cells& cells = partition.cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto members = cells[c];
         for (std::size_t i = 0; i < members.size(); ++i) {
-            if (members[i] >= movingCount) break;  // members ascend: only static ones follow
+            if (members[i].isStatic()) break;  // members ascend: only static ones follow
             for (std::size_t j = i + 1; j < members.size(); ++j) {
-                if (members[j] < movingCount) {
-                    resolveMoving(members[i], members[j]);
-                } else {
-                    resolveStatic(members[i], members[j] - movingCount);
-                }
+                resolvePair(members[i].row(), members[j]);
             }
-            counts.pairsTested += members.size() - i - 1;
+            step.counts.pairsTested += members.size() - i - 1;
         }
     }
     for (const std::uint32_t row : hit_) {
         view.moving.vx[row] = futureX_[row];
         view.moving.vy[row] = futureY_[row];
     }
-    return counts;
 }
 
 template class SequentialBaseline<double>;

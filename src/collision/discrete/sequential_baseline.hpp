@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "collision/resolver.hpp"
+#include "collision/discrete/discrete_law.hpp"
 
 namespace quadrille {
 
@@ -10,20 +10,25 @@ namespace quadrille {
 /// with its flaws. A pair is resolved once in each cell that it shares, whether it approaches or
 /// not, and of several contacts of a body the last decides its velocity.
 template <class Real>
-class SequentialBaseline final : public Resolver<Real> {
+class SequentialBaseline final : public DiscreteLaw<Real> {
   public:
-    ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                          const StepParameters<Real>& step,
-                          std::vector<ContactRecord>* records) override;
+    explicit SequentialBaseline(const ThreadTeam& team) : DiscreteLaw<Real>(team) {}
+
+    std::span<const ContactRecord> contacts() override { return records_; }
 
     std::size_t bytes() const override {
         return (futureX_.capacity() + futureY_.capacity()) * sizeof(Real) +
-               hit_.capacity() * sizeof(std::uint32_t);
+               hit_.capacity() * sizeof(std::uint32_t) +
+               records_.capacity() * sizeof(ContactRecord);
     }
 
   private:
+    void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
+                 Step<Real>& step) override;
+
     std::vector<Real> futureX_, futureY_;  // velocities after the step, of bodies in hit_
     std::vector<std::uint32_t> hit_;       // a row for each contact, repeated where hit again
+    std::vector<ContactRecord> records_;
 };
 
 }  // namespace quadrille

@@ -2,36 +2,37 @@
 
 #include <algorithm>
 
-#include "collision/discrete/impulse_bodies.hpp"
+#include "collision/make_record.hpp"
 
 namespace quadrille {
 
 template <class Real>
-ResolveCounts SequentialImpulse<Real>::resolve(const BodyView<Real>& view,
-                                               const Partition<Real>& partition,
-                                               const StepParameters<Real>& step,
-                                               std::vector<ContactRecord>* records) {
-    const Bodies<Real> bodies = makeBodies(view);
+void SequentialImpulse<Real>::resolve(const LawBodies<Real>& view, const Partition<Real>& partition,
+                                      Step<Real>& step) {
+    const Bodies<Real> bodies = view.plain();
+    const Real dt = step.parameters.dt;
     contacts_.clear();
-    const std::uint64_t tested = narrowPhase_.find(
-        view, partition,
-        [&](MovingPair p) { contacts_.push_back(movingContact(bodies, p.a, p.b, step.dt)); },
-        [&](StaticPair p) { contacts_.push_back(staticContact(bodies, p.a, p.fixed, step.dt)); });
+    records_.clear();
+    step.counts.pairsTested += narrowPhase_.find(
+        view.read(), partition,
+        [&](MovingPair p) { contacts_.push_back(movingContact(bodies, p.a, p.b, dt)); },
+        [&](StaticPair p) { contacts_.push_back(staticContact(bodies, p.a, p.fixed, dt)); });
 
-    sort_(contacts_, step.dt);
+    sort_(contacts_, canonicalOrder(bodies), dt);
     if (!partition.complete) {
         // Cells that are out of date may share a pair more than once.
         contacts_.erase(std::unique(contacts_.begin(), contacts_.end(), samePair<Real>),
                         contacts_.end());
     }
 
-    ResolveCounts counts{.contacts = contacts_.size(), .pairsTested = tested};
+    step.counts.contacts += contacts_.size();
     for (const PendingContact<Real>& c : contacts_) {
-        const bool collided = resolveContact(bodies, c, step);
-        counts.collisions += collided;
-        if (records != nullptr) records->push_back(makeRecord(c, step.start, collided));
+        const ContactOutcome<Real> outcome = resolveContact(bodies, c, step.parameters);
+        step.counts.collisions += outcome.collided();
+        if (step.keepContacts) {
+            records_.push_back(makeRecord(ResolvedContact<Real>{c, outcome}, step.from));
+        }
     }
-    return counts;
 }
 
 template class SequentialImpulse<double>;

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "collision/discrete/canonical_sort.hpp"
+#include "collision/discrete/discrete_law.hpp"
 #include "collision/pairs/narrow_phase.hpp"
-#include "collision/resolver.hpp"
 #include "collision/rules/canonical_order.hpp"
 
 namespace quadrille {
@@ -12,21 +12,26 @@ namespace quadrille {
 /// The law `impulse` on one core: find all contacts, sort them canonically, resolve them one by
 /// one. What every other resolver must reproduce bit for bit.
 template <class Real>
-class SequentialImpulse final : public Resolver<Real> {
+class SequentialImpulse final : public DiscreteLaw<Real> {
   public:
-    ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                          const StepParameters<Real>& step,
-                          std::vector<ContactRecord>* records) override;
+    explicit SequentialImpulse(const ThreadTeam& team) : DiscreteLaw<Real>(team) {}
+
+    std::span<const ContactRecord> contacts() override { return records_; }
 
     std::size_t bytes() const override {
         return narrowPhase_.bytes() + sort_.bytes() +
-               contacts_.capacity() * sizeof(PendingContact<Real>);
+               contacts_.capacity() * sizeof(PendingContact<Real>) +
+               records_.capacity() * sizeof(ContactRecord);
     }
 
   private:
+    void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
+                 Step<Real>& step) override;
+
     NarrowPhase<Real> narrowPhase_;
     std::vector<PendingContact<Real>> contacts_;
     CanonicalSort<Real> sort_;
+    std::vector<ContactRecord> records_;
 };
 
 }  // namespace quadrille

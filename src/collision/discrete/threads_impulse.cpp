@@ -4,64 +4,54 @@
 #include <limits>
 #include <utility>
 
-#include "collision/discrete/impulse_bodies.hpp"
-
 namespace quadrille {
-
-namespace {
-
-/// The graph costs about three times what it costs one thread to resolve the same contacts, so it
-/// takes more threads than that to gain something.
-constexpr unsigned graphThreads = 5;
-
-}  // namespace
 
 template <class Real>
 ThreadsImpulse<Real>::ThreadsImpulse(const ThreadTeam& team)
-    : team_(team), narrowPhase_(team), found_(team.size()), workers_(team.size()), graph_(team) {}
+    : DiscreteLaw<Real>(team),
+      team_(team),
+      narrowPhase_(team),
+      found_(team.size()),
+      workers_(team.size()),
+      graph_(team) {}
 
 template <class Real>
-ResolveCounts ThreadsImpulse<Real>::resolve(const BodyView<Real>& view,
-                                            const Partition<Real>& partition,
-                                            const StepParameters<Real>& step,
-                                            std::vector<ContactRecord>* records) {
-    const Bodies<Real> bodies = makeBodies(view);
+void ThreadsImpulse<Real>::resolve(const LawBodies<Real>& view, const Partition<Real>& partition,
+                                   Step<Real>& step) {
+    const Bodies<Real> bodies = view.plain();
+    const Real dt = step.parameters.dt;
     if (team_.size() > 1) startMarks(view.moving.size());
     for (auto& list : found_) list.contacts.clear();
     for (Worker& worker : workers_) worker.counts = {};
-    ResolveCounts counts;
-    counts.pairsTested = narrowPhase_.find(
-        view, partition,
+    step.counts.pairsTested += narrowPhase_.find(
+        view.read(), partition,
         [&](unsigned worker, MovingPair p) {
-            found_[worker].contacts.push_back(movingContact(bodies, p.a, p.b, step.dt));
+            found_[worker].contacts.push_back(movingContact(bodies, p.a, p.b, dt));
             claim(p.a, worker);
             claim(p.b, worker);
         },
         [&](unsigned worker, StaticPair p) {
-            found_[worker].contacts.push_back(staticContact(bodies, p.a, p.fixed, step.dt));
+            found_[worker].contacts.push_back(staticContact(bodies, p.a, p.fixed, dt));
             claim(p.a, worker);
         });
 
-    // Observers want the contacts in their order, one after the other.
-    const bool parallel = records == nullptr;
     const bool shared = pending() > found_.front().contacts.size();
-    if (parallel && shared && team_.workersFor(pending(), worthwhile::resolved) > 1) {
+    if (shared && team_.workersFor(pending(), &Thresholds::resolved) > 1) {
         team_.run(team_.size(), [&](unsigned worker) { resolveOwn(bodies, step, worker); });
-        for (const Worker& worker : workers_) {
-            counts.contacts += worker.counts.contacts;
-            counts.collisions += worker.counts.collisions;
+        for (Worker& worker : workers_) {
+            step.counts.contacts += worker.counts.contacts;
+            step.counts.collisions += worker.counts.collisions;
+            log_.take(worker.log);
         }
     }
-    const bool several = team_.workersFor(pending(), 4 * worthwhile::resolved) > 1;
-    if (parallel && several && (team_.threads() >= graphThreads || team_.eager())) {
+    const bool several = team_.workersFor(pending(), &Thresholds::linked) > 1;
+    if (several && team_.threads() >= team_.thresholds().graphThreads) {
         graph_.link(found_, view.moving.size());
-        const ResolveCounts rest = graph_.resolve(bodies, step);
-        counts.contacts += rest.contacts;
-        counts.collisions += rest.collisions;
+        graph_.resolve(bodies, step, log_);
     } else {
-        resolveRest(bodies, step, partition.complete, records, counts);
+        resolveRest(bodies, step, partition.complete);
     }
-    return counts;
+    makeRecords(bodies, step.from);
 }
 
 template <class Real>
@@ -81,7 +71,7 @@ void ThreadsImpulse<Real>::startMarks(std::size_t movingCount) {
         marks_ = std::make_unique_for_overwrite<std::atomic<Mark>[]>(markCount_);
     }
     if (grown || held_ > std::numeric_limits<Mark>::max() - 2 * step) {
-        team_.shares(markCount_, worthwhile::streamed,
+        team_.shares(markCount_, &Thresholds::streamed,
                      [&](std::size_t begin, std::size_t end, unsigned) {
                          for (std::size_t i = begin; i < end; ++i) {
                              marks_[i].store(0, std::memory_order_relaxed);
@@ -108,22 +98,22 @@ template <class Real>
 bool ThreadsImpulse<Real>::free(const PendingContact<Real>& c, unsigned worker) const {
     const Mark own = markOf(worker);
     return marks_[c.a].load(std::memory_order_relaxed) == own &&
-           (isStatic(c) || marks_[c.b].load(std::memory_order_relaxed) == own);
+           (c.b.isStatic() || marks_[c.b.row()].load(std::memory_order_relaxed) == own);
 }
 
 /// Makes later contacts of both bodies wait.
 template <class Real>
 void ThreadsImpulse<Real>::hold(const PendingContact<Real>& c) {
     marks_[c.a].store(held_, std::memory_order_relaxed);
-    if (!isStatic(c)) marks_[c.b].store(held_, std::memory_order_relaxed);
+    if (!c.b.isStatic()) marks_[c.b.row()].store(held_, std::memory_order_relaxed);
 }
 
 template <class Real>
-void ThreadsImpulse<Real>::resolveOwn(const Bodies<Real>& bodies, const StepParameters<Real>& step,
+void ThreadsImpulse<Real>::resolveOwn(const Bodies<Real>& bodies, const Step<Real>& step,
                                       unsigned worker) {
     Worker& own = workers_[worker];
     Contacts& contacts = found_[worker].contacts;
-    own.sort(contacts, step.dt);
+    own.sort(contacts, canonicalOrder(bodies), step.parameters.dt);
     std::size_t waiting = 0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         const PendingContact<Real> c = contacts[i];
@@ -131,43 +121,55 @@ void ThreadsImpulse<Real>::resolveOwn(const Bodies<Real>& bodies, const StepPara
             hold(c);
             contacts[waiting++] = c;
         } else if (i + 1 == contacts.size() || !samePair(c, contacts[i + 1])) {
-            own.counts.collisions += resolveContact(bodies, c, step);
+            const auto outcome = resolveContact(bodies, c, step.parameters);
+            own.counts.collisions += outcome.collided();
             ++own.counts.contacts;
+            if (step.keepContacts) own.log.add(c, outcome);
         }
     }
     contacts.resize(waiting);
 }
 
 template <class Real>
-void ThreadsImpulse<Real>::resolveRest(const Bodies<Real>& bodies, const StepParameters<Real>& step,
-                                       bool complete, std::vector<ContactRecord>* records,
-                                       ResolveCounts& counts) {
+void ThreadsImpulse<Real>::resolveRest(const Bodies<Real>& bodies, Step<Real>& step,
+                                       bool complete) {
     std::swap(rest_, found_.front().contacts);
     for (std::size_t w = 1; w < found_.size(); ++w) {
         rest_.insert(rest_.end(), found_[w].contacts.begin(), found_[w].contacts.end());
     }
-    sortRest_(rest_, step.dt);
+    sortRest_(rest_, canonicalOrder(bodies), step.parameters.dt);
     if (!complete) {
         rest_.erase(std::unique(rest_.begin(), rest_.end(), samePair<Real>), rest_.end());
     }
     for (const PendingContact<Real>& c : rest_) {
-        const bool collided = resolveContact(bodies, c, step);
-        counts.collisions += collided;
-        if (records != nullptr) records->push_back(makeRecord(c, step.start, collided));
+        const auto outcome = resolveContact(bodies, c, step.parameters);
+        step.counts.collisions += outcome.collided();
+        if (step.keepContacts) log_.add(c, outcome);
     }
-    counts.contacts += rest_.size();
+    step.counts.contacts += rest_.size();
+}
+
+/// Whoever looks at the contacts wants them in their order, which has nothing to do with who
+/// resolved them when.
+template <class Real>
+void ThreadsImpulse<Real>::makeRecords(const Bodies<Real>& bodies, double stepStart) {
+    records_.clear();
+    log_.sort(canonicalOrder(bodies));
+    log_.appendTo(records_, stepStart);
+    log_.clear();
 }
 
 template <class Real>
 std::size_t ThreadsImpulse<Real>::bytes() const {
-    std::size_t sum = narrowPhase_.bytes() + graph_.bytes() + sortRest_.bytes() +
-                      markCount_ * sizeof(Mark) + rest_.capacity() * sizeof(PendingContact<Real>) +
+    std::size_t sum = narrowPhase_.bytes() + graph_.bytes() + sortRest_.bytes() + log_.bytes() +
+                      records_.capacity() * sizeof(ContactRecord) + markCount_ * sizeof(Mark) +
+                      rest_.capacity() * sizeof(PendingContact<Real>) +
                       found_.capacity() * sizeof(ContactList<Real>) +
                       workers_.capacity() * sizeof(Worker);
     for (const auto& list : found_) {
         sum += list.contacts.capacity() * sizeof(PendingContact<Real>);
     }
-    for (const Worker& worker : workers_) sum += worker.sort.bytes();
+    for (const Worker& worker : workers_) sum += worker.sort.bytes() + worker.log.bytes();
     return sum;
 }
 

@@ -8,8 +8,9 @@
 
 #include "collision/discrete/canonical_sort.hpp"
 #include "collision/discrete/contact_graph.hpp"
+#include "collision/discrete/contact_log.hpp"
+#include "collision/discrete/discrete_law.hpp"
 #include "collision/pairs/threads_narrow_phase.hpp"
-#include "collision/resolver.hpp"
 #include "collision/rules/impulse_contact.hpp"
 
 namespace quadrille {
@@ -24,14 +25,12 @@ namespace quadrille {
 /// touch a body of several workers, or a body that an earlier contact was put off for. What is left
 /// is little, and resolved one by one, unless bodies lie in piles; then a ContactGraph takes it.
 template <class Real>
-class ThreadsImpulse final : public Resolver<Real> {
+class ThreadsImpulse final : public DiscreteLaw<Real> {
   public:
-    /// `team` must outlive the resolver.
+    /// `team` must outlive the law.
     explicit ThreadsImpulse(const ThreadTeam& team);
 
-    ResolveCounts resolve(const BodyView<Real>& bodies, const Partition<Real>& partition,
-                          const StepParameters<Real>& step,
-                          std::vector<ContactRecord>* records) override;
+    std::span<const ContactRecord> contacts() override { return records_; }
 
     std::size_t bytes() const override;
 
@@ -41,8 +40,12 @@ class ThreadsImpulse final : public Resolver<Real> {
 
     struct alignas(64) Worker {
         CanonicalSort<Real> sort;
+        ContactLog<Real> log;
         ResolveCounts counts;
     };
+
+    void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
+                 Step<Real>& step) override;
 
     std::size_t pending() const;
     void startMarks(std::size_t movingCount);
@@ -50,9 +53,9 @@ class ThreadsImpulse final : public Resolver<Real> {
     Mark markOf(unsigned worker) const { return held_ + 1 + worker; }
     bool free(const PendingContact<Real>& c, unsigned worker) const;
     void hold(const PendingContact<Real>& c);
-    void resolveOwn(const Bodies<Real>& bodies, const StepParameters<Real>& step, unsigned worker);
-    void resolveRest(const Bodies<Real>& bodies, const StepParameters<Real>& step, bool complete,
-                     std::vector<ContactRecord>* records, ResolveCounts& counts);
+    void resolveOwn(const Bodies<Real>& bodies, const Step<Real>& step, unsigned worker);
+    void resolveRest(const Bodies<Real>& bodies, Step<Real>& step, bool complete);
+    void makeRecords(const Bodies<Real>& bodies, double stepStart);
 
     const ThreadTeam& team_;
     ThreadsNarrowPhase<Real> narrowPhase_;
@@ -61,6 +64,8 @@ class ThreadsImpulse final : public Resolver<Real> {
     ContactGraph<Real> graph_;
     Contacts rest_;  // of all workers
     CanonicalSort<Real> sortRest_;
+    ContactLog<Real> log_;
+    std::vector<ContactRecord> records_;
 
     // A mark for each moving body: below held_ it is of an earlier step and means nothing; held_
     // says that contacts of this body must wait; more is the worker that has contacts with it.

@@ -9,6 +9,7 @@
 
 #include <quadrille/bodies.hpp>
 
+#include "collision/broad/extents.hpp"
 #include "collision/broad/partitioner.hpp"
 #include "collision/pairs/cell_walk.hpp"
 #include "collision/pairs/hit_bits.hpp"
@@ -40,7 +41,7 @@ class CandidatePairs {
 
     void add(const BodyView<Real>& bodies, const Partition<Real>& partition, Real inflation,
              std::size_t firstCell, std::size_t lastCell) {
-        const auto onMoving = [&](std::uint32_t a, const std::uint32_t* others, Bits hits) {
+        const auto onMoving = [&](std::uint32_t a, const BodyRef* others, Bits hits) {
             append(a, others, hits);
         };
         withSizes(bodies, [&](const auto& sizes) {
@@ -49,12 +50,11 @@ class CandidatePairs {
         });
     }
 
-    /// What to add to the sums of half extents: a little more than the margins of both, for the
-    /// rounding of the distances walked since and of the sums themselves.
+    /// What to add to the sums of half extents.
     static Real inflationOf(const BodyView<Real>& bodies, const Partition<Real>& partition,
                             const ThreadTeam& team = ThreadTeam::serial()) {
-        constexpr Real eps = 16 * std::numeric_limits<Real>::epsilon();
-        return 2 * partition.margin * (1 + eps) + largest(bodies, team) * eps;
+        return candidateInflation(partition.margin,
+                                  largestHalfExtent(bodies, team) + partition.largestExtra());
     }
 
     std::span<const MovingPair> moving() const { return {moving_.data(), movingCount_}; }
@@ -69,33 +69,16 @@ class CandidatePairs {
   private:
     using Bits = HitBits<Real>;
 
-    /// The largest half extent of any body.
-    static Real largest(const BodyView<Real>& bodies, const ThreadTeam& team) {
-        Real result = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
-        for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
-                                  bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
-            const Real most = team.maximum<Real>(values.size(), worthwhile::streamed,
-                                                 [&](std::size_t begin, std::size_t end) {
-                                                     Real part = 0;
-                                                     for (std::size_t i = begin; i < end; ++i)
-                                                         part = std::max(part, values[i]);
-                                                     return part;
-                                                 });
-            result = std::max(result, most);
-        }
-        return result;
-    }
-
     /// Most bodies have up to two neighbours in a block, and how many is a coin toss that a branch
     /// would lose: two pairs are written always, and counted if they are there.
-    void append(std::uint32_t a, const std::uint32_t* others, Bits hits) {
+    void append(std::uint32_t a, const BodyRef* others, Bits hits) {
         if (moving_.size() < movingCount_ + hitBlock<Real>) {
             moving_.resize(std::max<std::size_t>(1024, moving_.size() + moving_.size() / 2));
         }
         const auto put = [&] {
             // An empty mask has no lowest bit; what is then written is not counted.
             const auto lowest = static_cast<std::size_t>(std::countr_zero(hits | lastBit));
-            moving_[movingCount_] = {a, others[hits != 0 ? lowest : 0]};
+            moving_[movingCount_] = {a, others[hits != 0 ? lowest : 0].row()};
             movingCount_ += hits != 0;
             hits &= hits - 1;
         };

@@ -9,11 +9,11 @@
 
 #include "collision/broad/partitioner.hpp"
 #include "collision/pairs/hit_bits.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_geometry.hpp"
 
 namespace quadrille {
 
-/// Two moving bodies, by row; the first was created first.
+/// Two moving bodies, by row, in no order.
 struct MovingPair {
     std::uint32_t a, b;
 };
@@ -58,42 +58,41 @@ decltype(auto) withSizes(const BodyView<Real>& bodies, Function&& function) {
 template <class Real>
 class CellWalk {
   public:
-    /// Finds every pair of the cells from `first` to `last` whose boxes overlap when `inflation` is
-    /// added to the sums of their half extents; from a complete partition, each pair once. Moving
-    /// bodies come as `onMoving(a, others, hits)`: body `a` overlaps others[l] for each set bit l
-    /// of `hits`, which may be none. Pairs with static bodies come as `onStatic(StaticPair)`.
-    /// Returns the number of pairs compared.
+    /// Finds every pair of the cells from `first` to `last` whose boxes overlap when `inflation`,
+    /// and what the partition has extra, is added to the sums of their half extents; from a
+    /// complete partition, each pair once. Moving bodies come as `onMoving(a, others, hits)`: body
+    /// `a` overlaps others[l] for each set bit l of `hits`, which may be none. Pairs with static
+    /// bodies come as `onStatic(StaticPair)`. Returns the number of pairs compared.
     template <class Sizes, class OnMoving, class OnStatic>
     std::uint64_t walk(const BodyView<Real>& bodies, const Partition<Real>& partition,
                        const Sizes& sizes, Real inflation, std::size_t first, std::size_t last,
                        OnMoving&& onMoving, OnStatic&& onStatic) {
         const auto& f = bodies.fixed;
         const Cells& cells = partition.cells;
-        const auto movingCount = static_cast<std::uint32_t>(bodies.moving.size());
         std::uint64_t tested = 0;
         for (std::size_t c = first; c < last; ++c) {
             const auto members = cells[c];
             if (members.size() < 2) continue;
             // Members ascend, so the static ones stand last.
             std::size_t moving = members.size();
-            while (moving > 0 && members[moving - 1] >= movingCount) --moving;
+            while (moving > 0 && members[moving - 1].isStatic()) --moving;
             if (moving == 0) continue;
             gather(bodies, sizes, partition, c, members.first(moving));
             for (std::size_t i = 0; i + 1 < moving; ++i) {
-                const Box box{x_[i], y_[i], width_[i] + inflation, height_[i] + inflation};
+                const Box<Real> box = inflated({x_[i], y_[i], width_[i], height_[i]}, inflation);
                 forEachBlock(box, crossedEdges(i), i + 1, moving,
                              [&](std::size_t start, Bits hits) {
-                                 onMoving(members[i], members.data() + start, hits);
+                                 onMoving(members[i].row(), members.data() + start, hits);
                              });
             }
             for (std::size_t k = moving; k < members.size(); ++k) {
-                const std::uint32_t row = members[k] - movingCount;
-                const Box box{f.x[row], f.y[row], f.halfWidth[row] + inflation,
-                              f.halfHeight[row] + inflation};
+                const std::uint32_t row = members[k].row();
+                const Box<Real> box =
+                    inflated({f.x[row], f.y[row], f.halfWidth[row], f.halfHeight[row]}, inflation);
                 forEachBlock(box, partition.crossedEdges(c, members[k]), 0, moving,
                              [&](std::size_t start, Bits hits) {
                                  forEachBit(hits, [&](std::size_t l) {
-                                     onStatic(StaticPair{members[start + l], row});
+                                     onStatic(StaticPair{members[start + l].row(), row});
                                  });
                              });
             }
@@ -112,11 +111,6 @@ class CellWalk {
     static constexpr std::size_t block = hitBlock<Real>;
     using Bits = HitBits<Real>;
 
-    /// A centre and half extents.
-    struct Box {
-        Real x, y, halfWidth, halfHeight;
-    };
-
     CrossedEdges crossedEdges(std::size_t i) const {
         return {(left_[i / block] >> i % block & 1) != 0,
                 (below_[i / block] >> i % block & 1) != 0};
@@ -125,7 +119,7 @@ class CellWalk {
     /// Calls `function(start, hits)` for each block of gathered boxes from `first` to `last`: bit l
     /// says that box start + l overlaps `box` and that their pair belongs to this cell.
     template <class Function>
-    void forEachBlock(const Box& box, CrossedEdges edges, std::size_t first, std::size_t last,
+    void forEachBlock(const Box<Real>& box, CrossedEdges edges, std::size_t first, std::size_t last,
                       Function&& function) const {
         for (std::size_t start = first / block * block; start < last; start += block) {
             const Real* const x = x_.data() + start;
@@ -133,12 +127,10 @@ class CellWalk {
             const Real* const width = width_.data() + start;
             const Real* const height = height_.data() + start;
             Bits hits = hitBits<Real>([&](std::size_t l) {
-                return overlaps(x[l] - box.x, y[l] - box.y, box.halfWidth + width[l],
-                                box.halfHeight + height[l]);
+                return overlap(box, Box<Real>{x[l], y[l], width[l], height[l]});
             });
             if (start < first) hits &= ~Bits(0) << (first - start);
-            hits &= ~(left_[start / block] & (Bits(0) - Bits(edges.left)));
-            hits &= ~(below_[start / block] & (Bits(0) - Bits(edges.below)));
+            hits &= belongToCell(edges, left_[start / block], below_[start / block]);
             function(start, hits);
         }
     }
@@ -147,7 +139,7 @@ class CellWalk {
     /// overlaps.
     template <class Sizes>
     void gather(const BodyView<Real>& bodies, const Sizes& sizes, const Partition<Real>& partition,
-                std::size_t cell, std::span<const std::uint32_t> members) {
+                std::size_t cell, std::span<const BodyRef> members) {
         const std::size_t blocks = (members.size() + block - 1) / block;
         if (blocks > left_.size()) {
             for (auto* column : {&x_, &y_, &width_, &height_}) column->resize(2 * blocks * block);
@@ -156,18 +148,23 @@ class CellWalk {
         }
         const Real* const x = bodies.moving.x.data();
         const Real* const y = bodies.moving.y.data();
+        const bool more = !partition.extra.empty();
         std::size_t i = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
             Bits left = 0;
             Bits below = 0;
             const std::size_t end = std::min(members.size(), (b + 1) * block);
             for (std::size_t l = 0; i < end; ++i, ++l) {
-                const std::uint32_t row = members[i];
+                const std::uint32_t row = members[i].row();
                 x_[i] = x[row];
                 y_[i] = y[row];
                 width_[i] = sizes.width(row);
                 height_[i] = sizes.height(row);
-                const CrossedEdges edges = partition.crossedEdges(cell, row);
+                if (more) {
+                    width_[i] += partition.extra[row];
+                    height_[i] += partition.extra[row];
+                }
+                const CrossedEdges edges = partition.crossedEdges(cell, members[i]);
                 left |= Bits(edges.left) << l;
                 below |= Bits(edges.below) << l;
             }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/broad/extents.hpp"
 #include "collision/broad/partitioner.hpp"
 #include "collision/pairs/cell_walk.hpp"
 #include "collision/rules/canonical_order.hpp"
@@ -98,29 +99,20 @@ class MissedPairCounter {
         // Sums of inflated extents are rounded in another order here; a pair that overlaps must not
         // be lost to that.
         const Real slack = inflation > 0 ? inflation + 8 * std::numeric_limits<Real>::epsilon() *
-                                                           (inflation + widest(bodies))
+                                                           (inflation + largestHalfExtent(bodies))
                                          : Real(0);
         const auto count = static_cast<std::uint32_t>(bodies.moving.size());
         shown_.clear();
         withSizes(bodies, [&](const auto& sizes) {
             walk_.walk(
                 bodies, partition, sizes, slack, 0, partition.cells.size(),
-                [&](std::uint32_t a, const std::uint32_t* others, auto hits) {
-                    forEachBit(hits, [&](std::size_t l) { shown_.emplace_back(a, others[l]); });
+                [&](std::uint32_t a, const BodyRef* others, auto hits) {
+                    forEachBit(hits,
+                               [&](std::size_t l) { shown_.emplace_back(a, others[l].row()); });
                 },
                 [&](StaticPair p) { shown_.emplace_back(p.a, count + p.fixed); });
         });
         std::sort(shown_.begin(), shown_.end());
-    }
-
-    /// The largest half extent of any body.
-    static Real widest(const BodyView<Real>& bodies) {
-        Real result = std::max(bodies.moving.halfWidth.common, bodies.moving.halfHeight.common);
-        for (const auto values : {bodies.moving.halfWidth.values, bodies.moving.halfHeight.values,
-                                  bodies.fixed.halfWidth, bodies.fixed.halfHeight}) {
-            for (const Real value : values) result = std::max(result, value);
-        }
-        return result;
     }
 
     std::uint64_t every_;

@@ -10,7 +10,7 @@
 #include "collision/pairs/candidate_pairs.hpp"
 #include "collision/pairs/cell_walk.hpp"
 #include "collision/pairs/hit_bits.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_geometry.hpp"
 
 namespace quadrille {
 
@@ -20,10 +20,10 @@ void testMoving(const BodyView<Real>& bodies, const Sizes& sizes, std::span<cons
                 OnMoving&& onMoving) {
     const Real* const x = bodies.moving.x.data();
     const Real* const y = bodies.moving.y.data();
-    const auto touch = [&](MovingPair p) {
-        return overlaps(x[p.b] - x[p.a], y[p.b] - y[p.a], sizes.width(p.a) + sizes.width(p.b),
-                        sizes.height(p.a) + sizes.height(p.b));
+    const auto boxOf = [&](std::uint32_t row) {
+        return Box<Real>{x[row], y[row], sizes.width(row), sizes.height(row)};
     };
+    const auto touch = [&](MovingPair p) { return overlap(boxOf(p.a), boxOf(p.b)); };
     const MovingPair* pair = pairs.data();
     const MovingPair* const end = pair + pairs.size();
     for (; end - pair >= static_cast<std::ptrdiff_t>(hitBlock<Real>); pair += hitBlock<Real>) {
@@ -42,19 +42,17 @@ void testStatic(const BodyView<Real>& bodies, const Sizes& sizes, std::span<cons
     const auto& m = bodies.moving;
     const auto& f = bodies.fixed;
     for (const StaticPair p : pairs) {
-        if (overlaps(f.x[p.fixed] - m.x[p.a], f.y[p.fixed] - m.y[p.a],
-                     sizes.width(p.a) + f.halfWidth[p.fixed],
-                     sizes.height(p.a) + f.halfHeight[p.fixed])) {
-            onStatic(p);
-        }
+        const Box<Real> a{m.x[p.a], m.y[p.a], sizes.width(p.a), sizes.height(p.a)};
+        const Box<Real> b{f.x[p.fixed], f.y[p.fixed], f.halfWidth[p.fixed], f.halfHeight[p.fixed]};
+        if (overlap(a, b)) onStatic(p);
     }
 }
 
 /// Turns the hits that a walk through cells hands out into calls of `onMoving(MovingPair)`.
 template <class OnMoving>
 auto asPairs(OnMoving& onMoving) {
-    return [&onMoving](std::uint32_t a, const std::uint32_t* others, auto hits) {
-        forEachBit(hits, [&](std::size_t l) { onMoving(MovingPair{a, others[l]}); });
+    return [&onMoving](std::uint32_t a, const BodyRef* others, auto hits) {
+        forEachBit(hits, [&](std::size_t l) { onMoving(MovingPair{a, others[l].row()}); });
     };
 }
 

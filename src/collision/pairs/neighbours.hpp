@@ -6,17 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "collision/continuous/event_queue.hpp"
-#include "collision/pairs/candidate_lists.hpp"
+#include <quadrille/body_ref.hpp>
+
 #include "collision/pairs/cell_walk.hpp"
+#include "collision/pairs/threads_candidate_pairs.hpp"
 
 namespace quadrille {
 
-/// For each moving body, the bodies that it may meet: rows, static ones with PairEvent::staticBit.
+/// For each moving body, the bodies that it may meet.
 class Neighbours {
   public:
     template <class Real>
-    void link(std::size_t rows, const CandidateLists<Real>& pairs) {
+    void link(std::size_t rows, const ThreadsCandidatePairs<Real>& pairs) {
         starts_.assign(rows + 1, 0);
         const auto forAll = [&](auto&& onMoving, auto&& onFixed) {
             pairs.forShare(
@@ -36,22 +37,23 @@ class Neighbours {
         others_.resize(end);
         forAll(
             [&](MovingPair p) {
-                others_[--starts_[p.a]] = p.b;
-                others_[--starts_[p.b]] = p.a;
+                others_[--starts_[p.a]] = BodyRef::moving(p.b);
+                others_[--starts_[p.b]] = BodyRef::moving(p.a);
             },
-            [&](StaticPair p) { others_[--starts_[p.a]] = p.fixed | PairEvent::staticBit; });
+            [&](StaticPair p) { others_[--starts_[p.a]] = BodyRef::fixed(p.fixed); });
     }
 
-    std::span<const std::uint32_t> operator[](std::uint32_t row) const {
+    std::span<const BodyRef> operator[](std::uint32_t row) const {
         return {others_.data() + starts_[row], others_.data() + starts_[row + 1]};
     }
 
     std::size_t bytes() const {
-        return (starts_.capacity() + others_.capacity()) * sizeof(std::uint32_t);
+        return starts_.capacity() * sizeof(std::uint32_t) + others_.capacity() * sizeof(BodyRef);
     }
 
   private:
-    std::vector<std::uint32_t> starts_, others_;
+    std::vector<std::uint32_t> starts_;
+    std::vector<BodyRef> others_;
 };
 
 }  // namespace quadrille

@@ -7,8 +7,8 @@
 
 #include <quadrille/bodies.hpp>
 
-#include "collision/pairs/candidate_lists.hpp"
 #include "collision/pairs/narrow_phase.hpp"
+#include "collision/pairs/threads_candidate_pairs.hpp"
 #include "parallel/thread_team.hpp"
 
 namespace quadrille {
@@ -51,7 +51,7 @@ class ThreadsNarrowPhase {
     template <class Sizes, class OnMoving, class OnStatic>
     std::uint64_t walkCells(const BodyView<Real>& bodies, const Partition<Real>& partition,
                             const Sizes& sizes, OnMoving& onMoving, OnStatic& onStatic) {
-        const unsigned workers = team_.workersFor(bodies.size(), worthwhile::walked);
+        const unsigned workers = team_.workersFor(bodies.size(), &Thresholds::walked);
         team_.run(workers, [&](unsigned worker) {
             const auto [first, last] = shareOfCells(partition.cells, worker, workers);
             const auto moving = [&](MovingPair p) { onMoving(worker, p); };
@@ -68,7 +68,7 @@ class ThreadsNarrowPhase {
     std::uint64_t testCandidates(const BodyView<Real>& bodies, const Sizes& sizes,
                                  OnMoving& onMoving, OnStatic& onStatic) {
         const unsigned workers =
-            team_.workersFor(candidates_.size() + hitPrice * lastHits_, worthwhile::tested);
+            team_.workersFor(candidates_.size() + hitPrice * lastHits_, &Thresholds::tested);
         team_.run(workers, [&](unsigned worker) {
             std::size_t hits = 0;
             candidates_.forShare(
@@ -93,7 +93,7 @@ class ThreadsNarrowPhase {
     static constexpr std::size_t hitPrice = 30;
 
     const ThreadTeam& team_;
-    CandidateLists<Real> candidates_;
+    ThreadsCandidatePairs<Real> candidates_;
     std::vector<Worker> workers_;
     std::size_t lastHits_ = 0;  // pairs that overlapped in the last step
 };

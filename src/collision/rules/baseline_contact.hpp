@@ -2,10 +2,9 @@
 
 #include <cstdint>
 
-#include <quadrille/detail/host_device.hpp>
-
+#include "collision/rules/bodies.hpp"
 #include "collision/rules/contact_law.hpp"
-#include "collision/rules/impulse_contact.hpp"
+#include "collision/rules/pair_geometry.hpp"
 
 /// What a contact of the law `baseline` does to its bodies, over plain pointers, so that every
 /// resolver on host and device shares it.
@@ -19,24 +18,16 @@ struct BaselineBodies {
     Real *futureX, *futureY;  ///< of bodies that were hit
 };
 
+/// What a contact did, along its one axis.
 template <class Real>
-QUADRILLE_HD inline bool movingOverlap(const Bodies<Real>& bodies, std::uint32_t a,
-                                       std::uint32_t b) {
-    const auto& m = bodies.moving;
-    return overlaps(m.x[b] - m.x[a], m.y[b] - m.y[a], m.halfWidth[a] + m.halfWidth[b],
-                    m.halfHeight[a] + m.halfHeight[b]);
-}
+struct BaselineOutcome {
+    Penetration<Real> penetration;
+    Real impulse;   ///< that the first body's change of velocity amounts to, kg px/s
+    Real approach;  ///< px/s; negative if they parted: the law does not ask
+};
 
-template <class Real>
-QUADRILLE_HD inline bool staticOverlap(const Bodies<Real>& bodies, std::uint32_t a,
-                                       std::uint32_t k) {
-    const auto& m = bodies.moving;
-    const auto& f = bodies.fixed;
-    return overlaps(f.x[k] - m.x[a], f.y[k] - m.y[a], m.halfWidth[a] + f.halfWidth[k],
-                    m.halfHeight[a] + f.halfHeight[k]);
-}
-
-/// The velocity that a contact gives to body `self`: of several, only the last one counts.
+/// The velocity along one axis that a contact gives to body `self`: of several, only the last one
+/// counts.
 template <class Real>
 QUADRILLE_HD inline void reflectBaseline(const BaselineBodies<Real>& bodies, std::uint32_t self,
                                          Real otherX, Real otherY, Real share, std::uint8_t axis,
@@ -53,39 +44,37 @@ QUADRILLE_HD inline void reflectBaseline(const BaselineBodies<Real>& bodies, std
     bodies.futureY[self] = vy;
 }
 
-/// Two moving bodies that overlap: pushes both out and sets both future velocities.
+/// A moving body that overlaps another one: pushes out what can move, and sets its future velocity.
 template <class Real>
-QUADRILLE_HD inline Penetration<Real> resolveBaseline(const BaselineBodies<Real>& bodies,
-                                                      std::uint32_t a, std::uint32_t b,
-                                                      Real restitution) {
+QUADRILLE_HD inline BaselineOutcome<Real> resolveBaseline(const BaselineBodies<Real>& bodies,
+                                                          std::uint32_t a, BodyRef other,
+                                                          Real restitution) {
     const auto& m = bodies.now.moving;
+    const std::uint32_t b = other.row();
+    const Box<Real> boxA = movingBox(bodies.now, a);
+    const Box<Real> boxB = boxOf(bodies.now, other);
     const auto p =
-        leastPenetration(m.x[b] - m.x[a], m.y[b] - m.y[a], m.halfWidth[a] + m.halfWidth[b],
-                         m.halfHeight[a] + m.halfHeight[b]);
-    const Real total = m.mass[a] + m.mass[b];
-    const Real shareA = m.mass[b] / total;
-    const Real shareB = m.mass[a] / total;
+        leastPenetration(boxB.x - boxA.x, boxB.y - boxA.y, boxA.halfWidth + boxB.halfWidth,
+                         boxA.halfHeight + boxB.halfHeight);
     Real* const position = p.axis == axisX ? m.x : m.y;
-    position[a] -= p.sense * (p.depth * shareA);
-    position[b] += p.sense * (p.depth * shareB);
-    reflectBaseline(bodies, a, m.vx[b], m.vy[b], shareA, p.axis, restitution);
-    reflectBaseline(bodies, b, m.vx[a], m.vy[a], shareB, p.axis, restitution);
-    return p;
-}
-
-/// A moving body that overlaps the static one in row k.
-template <class Real>
-QUADRILLE_HD inline Penetration<Real> resolveBaselineStatic(const BaselineBodies<Real>& bodies,
-                                                            std::uint32_t a, std::uint32_t k,
-                                                            Real restitution) {
-    const auto& m = bodies.now.moving;
-    const auto& f = bodies.now.fixed;
-    const auto p =
-        leastPenetration(f.x[k] - m.x[a], f.y[k] - m.y[a], m.halfWidth[a] + f.halfWidth[k],
-                         m.halfHeight[a] + f.halfHeight[k]);
-    (p.axis == axisX ? m.x : m.y)[a] -= p.sense * p.depth;
-    reflectBaseline(bodies, a, Real(0), Real(0), Real(1), p.axis, restitution);
-    return p;
+    const Real* const velocity = p.axis == axisX ? m.vx : m.vy;
+    const Real before = velocity[a];
+    Real approach = before * p.sense;
+    if (other.isStatic()) {
+        position[a] -= p.sense * p.depth;
+        reflectBaseline(bodies, a, Real(0), Real(0), Real(1), p.axis, restitution);
+    } else {
+        approach = (before - velocity[b]) * p.sense;
+        const Real total = m.mass[a] + m.mass[b];
+        const Real shareA = m.mass[b] / total;
+        const Real shareB = m.mass[a] / total;
+        position[a] -= p.sense * (p.depth * shareA);
+        position[b] += p.sense * (p.depth * shareB);
+        reflectBaseline(bodies, a, m.vx[b], m.vy[b], shareA, p.axis, restitution);
+        reflectBaseline(bodies, b, m.vx[a], m.vy[a], shareB, p.axis, restitution);
+    }
+    const Real after = (p.axis == axisX ? bodies.futureX : bodies.futureY)[a];
+    return {p, m.mass[a] * magnitude(after - before), approach};
 }
 
 }  // namespace quadrille

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include <quadrille/body_ref.hpp>
-#include <quadrille/detail/anchor.hpp>
 #include <quadrille/detail/host_device.hpp>
 
 /// The body columns over plain pointers, in host or in device memory: what every rule reads and
@@ -30,6 +29,15 @@ struct CreationNumbers {
     QUADRILLE_HD std::uint32_t operator[](std::uint32_t row) const {
         return values != nullptr ? values[row] : row;
     }
+};
+
+/// Where, when and how fast a body set out on its present path, along each axis: one record,
+/// because an event reads all of it.
+template <class Real>
+struct Anchor {
+    Real x, y;            ///< px
+    Real vx, vy;          ///< px/s
+    double timeX, timeY;  ///< s; NaN for a body that is new or was edited from outside
 };
 
 template <class Real>

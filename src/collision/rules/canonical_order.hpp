@@ -2,7 +2,10 @@
 
 #include <cstdint>
 
+#include <quadrille/body_ref.hpp>
 #include <quadrille/detail/host_device.hpp>
+
+#include "collision/rules/bodies.hpp"
 
 namespace quadrille {
 
@@ -24,21 +27,14 @@ QUADRILLE_HD inline std::uint32_t pairPriority(std::uint32_t entityA, std::uint3
 /// A contact to be resolved by the law `impulse`.
 template <class Real>
 struct PendingContact {
-    static constexpr std::uint32_t staticBit = 0x8000'0000u;
-
     Real sinceStart;         ///< s from the start of the step to the impact; the first key
     std::uint32_t priority;  ///< the second key
     std::uint32_t a;         ///< row of the moving body that was created first; the third key
-    std::uint32_t b;         ///< row of the other, with staticBit for a static one; the last key
+    BodyRef b;               ///< the other body; the last key
     std::uint8_t axes;
     std::uint8_t overlapBefore;
     std::int8_t senseX, senseY;
 };
-
-template <class Real>
-QUADRILLE_HD inline bool isStatic(const PendingContact<Real>& c) {
-    return (c.b & PendingContact<Real>::staticBit) != 0;
-}
 
 /// Cells that are out of date may show a pair more than once.
 template <class Real>
@@ -46,13 +42,29 @@ QUADRILLE_HD inline bool samePair(const PendingContact<Real>& p, const PendingCo
     return p.a == q.a && p.b == q.b;
 }
 
-/// The canonical order: by physics and ids alone.
+/// The canonical order: by physics and the order of creation alone.
+struct CanonicalOrder {
+    CreationNumbers moving, fixed;
+
+    /// A number that orders bodies as they were created, static ones after moving ones.
+    QUADRILLE_HD std::uint32_t rank(BodyRef body) const {
+        return body.isStatic() ? fixed[body.row()] | BodyRef::staticBit : moving[body.row()];
+    }
+
+    /// Whether p comes before q.
+    template <class Real>
+    QUADRILLE_HD bool operator()(const PendingContact<Real>& p,
+                                 const PendingContact<Real>& q) const {
+        if (p.sinceStart != q.sinceStart) return p.sinceStart < q.sinceStart;
+        if (p.priority != q.priority) return p.priority < q.priority;
+        if (p.a != q.a) return moving[p.a] < moving[q.a];
+        return rank(p.b) < rank(q.b);
+    }
+};
+
 template <class Real>
-QUADRILLE_HD inline bool before(const PendingContact<Real>& p, const PendingContact<Real>& q) {
-    if (p.sinceStart != q.sinceStart) return p.sinceStart < q.sinceStart;
-    if (p.priority != q.priority) return p.priority < q.priority;
-    if (p.a != q.a) return p.a < q.a;
-    return p.b < q.b;
+QUADRILLE_HD inline CanonicalOrder canonicalOrder(const Bodies<Real>& bodies) {
+    return {bodies.moving.created, bodies.fixed.created};
 }
 
 }  // namespace quadrille

@@ -28,4 +28,16 @@ QUADRILLE_HD inline CrossedEdges crossedEdgesOf(const CellCoordinates& cell,
     return {range.x0 < cell.x, range.y0 < cell.y};
 }
 
+/// Whether a pair belongs to the cell, for many pairs at once: bit l of the result is about a body
+/// with these edges and another one, whose edges are bit l of `left` and `below`.
+template <class Bits>
+QUADRILLE_HD inline Bits belongToCell(CrossedEdges edges, Bits left, Bits below) {
+    return ~(left & (Bits(0) - Bits(edges.left))) & ~(below & (Bits(0) - Bits(edges.below)));
+}
+
+/// The same for one pair.
+QUADRILLE_HD inline bool belongsToCell(CrossedEdges p, CrossedEdges q) {
+    return (belongToCell<unsigned>(p, q.left, q.below) & 1u) != 0;
+}
+
 }  // namespace quadrille

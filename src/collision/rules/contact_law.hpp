@@ -69,6 +69,14 @@ QUADRILLE_HD inline Impact<Real> impactOf(Real dx, Real dy, Real ux, Real uy, Re
     return {since < dt ? since : dt, axes, false, senseX, senseY};
 }
 
+/// What a contact did along one axis.
+template <class Real>
+struct AxisOutcome {
+    bool collided;  ///< the bodies approached and exchanged an impulse
+    Real impulse;   ///< its size, kg px/s
+    Real approach;  ///< speed of approach before, px/s; negative if they parted
+};
+
 /// What both bodies of a pair have along one axis.
 template <class Real>
 struct AxisState {
@@ -95,18 +103,21 @@ QUADRILLE_HD inline void exchangeImpulse(Real& va, Real& vb, Real massA, Real ma
 /// The law `impulse` for two moving bodies along one axis. If they approach, they exchange an
 /// impulse, and each is moved by its change of velocity times the time since impact, so that a
 /// collision of two ends where the exact one does. Overlap from before the step is pushed out in
-/// inverse proportion to mass. Returns whether an impulse was exchanged.
+/// inverse proportion to mass.
 template <class Real>
-QUADRILLE_HD inline bool collide(AxisState<Real>& a, AxisState<Real>& b, Real massA, Real massB,
-                                 Real restitution, Real reach, Real sense, Real since,
-                                 bool overlapBefore) {
-    const bool approaching = (b.velocity - a.velocity) * sense < 0;
+QUADRILLE_HD inline AxisOutcome<Real> collide(AxisState<Real>& a, AxisState<Real>& b, Real massA,
+                                              Real massB, Real restitution, Real reach, Real sense,
+                                              Real since, bool overlapBefore) {
+    const Real approach = -((b.velocity - a.velocity) * sense);
+    const bool approaching = approach > 0;
+    Real impulse = 0;
     if (approaching) {
         const Real oldA = a.velocity;
         const Real oldB = b.velocity;
         exchangeImpulse(a.velocity, b.velocity, massA, massB, restitution);
         a.position += (a.velocity - oldA) * since;
         b.position += (b.velocity - oldB) * since;
+        impulse = massA * magnitude(a.velocity - oldA);
     }
     if (overlapBefore) {
         const Real depth = reach - sense * (b.position - a.position);
@@ -116,7 +127,7 @@ QUADRILLE_HD inline bool collide(AxisState<Real>& a, AxisState<Real>& b, Real ma
             b.position += sense * (depth * (massA / total));
         }
     }
-    return approaching;
+    return {approaching, impulse, approach};
 }
 
 /// Change of velocity between the impact and the velocity of the step. The rule v += g dt, x += v
@@ -131,21 +142,25 @@ QUADRILLE_HD inline Real gainedSinceImpact(Real gravity, Real since, Real dt) {
 /// reflected: that of the step less what gravity has `gained` since. A body that would still go in
 /// afterwards rests on the surface.
 template <class Real>
-QUADRILLE_HD inline bool collideStatic(AxisState<Real>& a, Real fixedPosition, Real restitution,
-                                       Real reach, Real sense, Real since, bool overlapBefore,
-                                       Real gained) {
-    const bool approaching = a.velocity * sense > 0;
+QUADRILLE_HD inline AxisOutcome<Real> collideStatic(AxisState<Real>& a, Real mass,
+                                                    Real fixedPosition, Real restitution,
+                                                    Real reach, Real sense, Real since,
+                                                    bool overlapBefore, Real gained) {
+    const Real approach = a.velocity * sense;
+    const bool approaching = approach > 0;
+    Real impulse = 0;
     if (approaching) {
         const Real old = a.velocity;
         a.velocity = gained - restitution * (old - gained);
         if (a.velocity * sense > 0) a.velocity = 0;
         a.position += (a.velocity - old) * since;
+        impulse = mass * magnitude(a.velocity - old);
     }
     if (overlapBefore) {
         const Real depth = reach - sense * (fixedPosition - a.position);
         if (depth > 0) a.position -= sense * depth;
     }
-    return approaching;
+    return {approaching, impulse, approach};
 }
 
 /// Axis of least penetration and penetration of two overlapping boxes, for the law `baseline`.

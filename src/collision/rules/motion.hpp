@@ -2,18 +2,16 @@
 
 #include <quadrille/detail/host_device.hpp>
 
-/// Motion between contacts, for host and device alike: v += g dt, then x += v dt.
+/// Motion between contacts of the discrete laws, for host and device alike.
 
 namespace quadrille {
 
+/// A step along one axis: v += g dt, then x += v dt. Nothing is added to the velocity where there
+/// is no gravity: adding 0 would turn -0 into 0.
 template <class Real>
-QUADRILLE_HD inline Real accelerated(Real velocity, Real gravity, Real dt) {
-    return velocity + gravity * dt;
-}
-
-template <class Real>
-QUADRILLE_HD inline Real moved(Real position, Real velocity, Real dt) {
-    return position + velocity * dt;
+QUADRILLE_HD inline void integrate(Real& position, Real& velocity, Real gravity, Real dt) {
+    if (gravity != 0) velocity = velocity + gravity * dt;
+    position = position + velocity * dt;
 }
 
 }  // namespace quadrille

@@ -47,9 +47,10 @@ Outcome onBorders(const Setup& setup) {
         Simulation sim = simulate(setup, bodies, {.world = scene.world});
         sim.setPartitioner(scene.partitioner);
         std::map<std::pair<std::int64_t, std::int64_t>, int> hits;
-        sim.onContact([&](const Contact& c) { ++hits[{c.rowA, c.rowB}]; });
+        sim.onContact([&](const Contact& c) { ++hits[{c.numberA, c.numberB}]; });
         sim.run(20);
-        const std::string detail = name(scene.partitioner) + " " + number(scene.world.x());
+        const std::string detail =
+            std::string(name(scene.partitioner)) + " " + number(scene.world.x());
         if (hits.size() != bodies.size() / 2) {
             return {
                 "finds " + std::to_string(hits.size()) + " of " + std::to_string(bodies.size() / 2),

@@ -109,7 +109,7 @@ Outcome integerLattice(const Setup& setup) {
         sim.run(static_cast<std::uint64_t>(60 * crowdTime));
         std::vector<Hit> hits;
         for (const Contact& c : log.collisions()) {
-            hits.emplace_back(c.time, c.rowA, c.rowB, static_cast<int>(c.axis));
+            hits.emplace_back(c.time, c.numberA, c.numberB, static_cast<int>(c.axis));
         }
         std::sort(hits.begin(), hits.end());
         same = same && hits == exact;
@@ -160,7 +160,7 @@ Outcome jammed(const Setup& setup) {
     sim.run(60 * 2);
     double hits = 0;  // of pairs, a corner hit counting twice
     sim.onContact([&](const Contact& c) {
-        if (c.collided && c.rowB >= 0) hits += c.axis == Axis::Both ? 2 : 1;
+        if (c.collided && c.numberB >= 0) hits += c.axis == Axis::Both ? 2 : 1;
     });
     double deepest = 0;
     for (int i = 0; i < 60 * duration; ++i) {

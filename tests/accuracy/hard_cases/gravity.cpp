@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <quadrille/state_hash.hpp>
+
 #include "hard_cases/hard_case.hpp"
 
 namespace quadrille::accuracy {
@@ -12,7 +14,9 @@ namespace {
 constexpr double g = 200;  // px/s^2
 const Body ground{{0, -10}, {0, 0}, {200, 20}, 1, true};
 
-Conditions falling(double restitution) { return {.gravity = {0, -g}, .restitution = restitution}; }
+Conditions falling(double restitution) {
+    return {.step = {.gravity = {0, -g}, .restitution = restitution}};
+}
 
 /// An elastic box falls from `height` for a minute: its energy stays, and the time between bounces
 /// is 2 sqrt(2 height / g). Ten heights, the worst of each figure.

@@ -42,9 +42,7 @@ Simulation simulate(const Setup& setup, const std::vector<Body>& bodies,
     return Simulation(std::move(world), {.partitioner = partitionerFor(setup.law),
                                          .law = setup.law,
                                          .precision = setup.precision,
-                                         .dt = conditions.dt,
-                                         .gravity = conditions.gravity,
-                                         .restitution = conditions.restitution});
+                                         .step = conditions.step});
 }
 
 Vec2 position(const Simulation& sim, std::size_t i) {

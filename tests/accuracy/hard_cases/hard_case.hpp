@@ -77,9 +77,7 @@ struct Body {
 };
 
 struct Conditions {
-    double dt = 1.0 / 60;
-    Vec2 gravity{0, 0};
-    double restitution = 1;
+    StepSettings step{};
     Vec2 world{1000, 1000};
 };
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <tuple>
 
+#include <quadrille/names.hpp>
+
 #include "hard_cases/hard_case.hpp"
 
 // Every hard case with every law in both precisions: either the exact outcome, or what is known to

@@ -53,15 +53,18 @@ Outcome impossibleInput(const Setup& setup) {
         }
     }
     for (const double value : {nan, infinity, 0.0, -1.0}) {
-        const std::string error = errorOf([&] { simulate(setup, {}, {.dt = value}); });
+        const std::string error = errorOf([&] { simulate(setup, {}, {.step = {.dt = value}}); });
         if (error.find("dt") == std::string::npos) return {"takes it", "dt: " + error};
     }
     for (const double value : {nan, infinity}) {
-        const std::string error = errorOf([&] { simulate(setup, {}, {.gravity = {0, value}}); });
+        const std::string error = errorOf([&] {
+            simulate(setup, {}, {.step = {.gravity = {0, value}}});
+        });
         if (error.find("gravity") == std::string::npos) return {"takes it", "gravity: " + error};
     }
     for (const double value : {nan, -0.1, 1.1}) {
-        const std::string error = errorOf([&] { simulate(setup, {}, {.restitution = value}); });
+        const std::string error =
+            errorOf([&] { simulate(setup, {}, {.step = {.restitution = value}}); });
         if (error.find("restitution") == std::string::npos) {
             return {"takes it", "restitution: " + error};
         }
@@ -72,7 +75,7 @@ Outcome impossibleInput(const Setup& setup) {
 /// A body that outruns the numbers ends the run with its name.
 Outcome overflow(const Setup& setup) {
     const double far = setup.rounding(1e308, 1e38);
-    Simulation sim = simulate(setup, {{{0, 0}}, {{far, 0}, {far, 0}}}, {.dt = 1});
+    Simulation sim = simulate(setup, {{{0, 0}}, {{far, 0}, {far, 0}}}, {.step = {.dt = 1}});
     const std::string error = errorOf([&] { sim.run(10); });
     return exactIf(error.find("entity 1") != std::string::npos,
                    error.empty() ? "goes on" : "does not name it", error);

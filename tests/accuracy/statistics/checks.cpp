@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <quadrille/names.hpp>
+
 namespace quadrille::accuracy {
 
 namespace {
@@ -94,7 +96,7 @@ void expectSpeedsKeepTheirBits(Law law, Precision precision, std::uint64_t entit
                                std::uint64_t steps) {
     Scene scene = loadScene(QUADRILLE_SCENES_DIR "/balanced.toml", {.entities = entities});
     Simulation sim(std::move(scene.world),
-                   {.law = law, .precision = precision, .dt = scene.step.dt});
+                   {.law = law, .precision = precision, .step = scene.step});
     const auto speeds = [&] {
         return sim.world().visitBodies([](const auto& bodies) {
             std::vector<double> vx;

@@ -45,7 +45,7 @@ Gas::Gas(const GasConfig& config)
     : length_(config.squaresPerSide * side / std::sqrt(config.filling)),
       dt_(config.dt),
       sim_(makeWorld(config, length_),
-           {.law = config.law, .precision = config.precision, .dt = config.dt}),
+           {.law = config.law, .precision = config.precision, .step = {.dt = config.dt}}),
       velocities_(velocitiesOf(sim_.world())) {}
 
 bool Gas::agreesWithWorld() const { return velocities_ == velocitiesOf(sim_.world()); }
@@ -53,16 +53,16 @@ bool Gas::agreesWithWorld() const { return velocities_ == velocitiesOf(sim_.worl
 /// Follows the velocities from hit to hit: equal masses exchange them, walls turn them.
 void Gas::count(const Contact& contact) {
     if (!contact.collided) return;
-    Vec2& a = velocities_[static_cast<std::size_t>(contact.rowA)];
+    Vec2& a = velocities_[static_cast<std::size_t>(contact.numberA)];
     for (int k = 0; k < 2; ++k) {
         if (contact.normal[k] == 0) continue;
-        if (contact.rowB < 0) {
+        if (contact.numberB < 0) {
             if (!(a[k] * contact.normal[k] > 0)) continue;
             tally_.wallHits[k] += 1;
             tally_.wallImpulse[k] += 2 * std::abs(a[k]);
             a[k] = -a[k];
         } else {
-            Vec2& b = velocities_[static_cast<std::size_t>(contact.rowB)];
+            Vec2& b = velocities_[static_cast<std::size_t>(contact.numberB)];
             if (!((a[k] - b[k]) * contact.normal[k] > 0)) continue;
             tally_.pairHits[k] += 1;
             tally_.pairVirial[k] += std::abs(a[k] - b[k]) * side;

@@ -3,6 +3,8 @@
 #include <string>
 #include <tuple>
 
+#include <quadrille/names.hpp>
+
 #include "statistics/checks.hpp"
 
 // The long sizes of the statistics, on request: docs/accuracy.md says how.

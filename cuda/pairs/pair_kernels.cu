@@ -1,0 +1,286 @@
+#include "collision/rules/cell_ownership.hpp"
+#include "collision/rules/pair_geometry.hpp"
+#include "cuda/device/launch.cuh"
+#include "cuda/pairs/pair_kernels.hpp"
+
+// The narrow phase: which pairs of bodies overlap.
+
+namespace quadrille::cuda {
+
+namespace {
+
+/// Keeps the pairs for later steps.
+template <class Real>
+struct ToCandidates {
+    CandidateList list;
+
+    __device__ void operator()(std::uint32_t a, BodyRef b) const {
+        const unsigned long long place = countUp(&list.counts->candidates);
+        if (place < list.capacity) list.pairs[place] = {a, b};
+    }
+};
+
+/// Makes contacts of the pairs and puts them into the lists of their bodies.
+template <class Real>
+struct ToContacts {
+    DeviceContacts<Real> list;
+    Bodies<Real> bodies;
+    Real dt;
+
+    __device__ void operator()(std::uint32_t a, BodyRef b) const {
+        if (list.seen.slots != nullptr && seenBefore(a, b)) return;
+        const unsigned long long place = countUp(&list.counts->contacts);
+        if (place >= list.capacity) return;  // the host makes room and comes again
+        const auto i = static_cast<std::uint32_t>(place);
+        const PendingContact<Real> c = b.isStatic() ? staticContact(bodies, a, b.row(), dt)
+                                                    : movingContact(bodies, a, b.row(), dt);
+        list.contacts[i] = c;
+        // The contact's own a and b: the pair stands in the order of rows, the contact in that of
+        // creation.
+        list.nextA[i] = atomicExch(&list.heads[c.a], i);
+        if (!c.b.isStatic()) list.nextB[i] = atomicExch(&list.heads[c.b.row()], i);
+    }
+
+  private:
+    /// Whether the pair is in the table, where it is in any case afterwards. Once there are more
+    /// contacts than room the table may be full, and all that follow are said to be in it.
+    __device__ bool seenBefore(std::uint32_t a, BodyRef b) const {
+        const unsigned long long key = static_cast<unsigned long long>(a) << 32 | b.bits;
+        for (std::uint32_t slot = pairPriority(a, b.bits), tries = 1;; ++slot, ++tries) {
+            const unsigned long long there =
+                atomicCAS(&list.seen.slots[slot & list.seen.mask], SeenPairs::empty, key);
+            if (there == SeenPairs::empty) return false;
+            if (there == key) return true;
+            if (tries % 32 == 0 && atomicAdd(&list.counts->contacts, 0ull) > list.capacity) {
+                return true;
+            }
+        }
+    }
+};
+
+/// A member of a cell.
+template <class Real>
+struct Member {
+    BodyRef body;
+    Box<Real> box;
+
+    __device__ Member(const Bodies<Real>& bodies, const DeviceCells& cells, std::uint32_t entry)
+        : body(cells.bodies[entry]), box(boxOf(bodies, body)) {}
+};
+
+/// Whether members p and q of a cell overlap, p standing before q; two static ones never do.
+template <class Real>
+__device__ bool membersOverlap(const Member<Real>& p, const Member<Real>& q, Real inflation) {
+    const bool swap = q.body.isStatic();
+    const Box<Real>& first = swap ? q.box : p.box;
+    const Box<Real>& second = swap ? p.box : q.box;
+    return !p.body.isStatic() & overlap(inflated(first, inflation), second);
+}
+
+/// Hands out a pair of members that overlap, p standing before q, if it belongs to this cell.
+template <class Real, class Found>
+__device__ void handOut(const CellOwnership<Real>& ownership, std::uint32_t cell,
+                        const Member<Real>& p, const Member<Real>& q, const Found& found) {
+    if (ownership.coordinates != nullptr) {
+        const auto edges = [&](const Member<Real>& m) {
+            const Box<Real> box = inflated(m.box, ownership.margin);
+            return crossedEdgesOf(
+                ownership.coordinates[cell],
+                ownership.grid.range(box.x, box.y, box.halfWidth, box.halfHeight));
+        };
+        if (!belongsToCell(edges(p), edges(q))) return;
+    }
+    found(p.body.row(), q.body);
+}
+
+/// The cell of an entry: the last that begins at or before it. Empty cells begin where the next
+/// one does, so it is one that holds the entry.
+__device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t entry) {
+    std::uint32_t low = 0;
+    std::uint32_t high = cells.cells;
+    while (high - low > 1) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        if (cells.offsets[middle] <= entry) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/// Pairs that a warp has found and not handed out yet. Handing out takes long, and the threads of a
+/// warp find different numbers of pairs, so they share what they have found, 32 at a time.
+class FoundPairs {
+  public:
+    /// A pair of entries of a cell.
+    struct Pair {
+        std::uint32_t cell, p, q;
+    };
+    static constexpr std::uint32_t room = 64;
+
+    __device__ explicit FoundPairs(Pair* ofWarp) : pairs_(ofWarp) {}
+
+    /// All threads of the warp come here together, those with a `hit` to leave a pair.
+    template <class HandOut>
+    __device__ void add(bool hit, const Pair& pair, const HandOut& handOut) {
+        const unsigned hits = __ballot_sync(0xffff'ffffu, hit);
+        const unsigned before = (1u << threadIdx.x % 32) - 1;
+        if (hit) pairs_[count_ + __popc(hits & before)] = pair;
+        count_ += __popc(hits);
+        if (count_ >= 32) flush(handOut);
+    }
+    /// Hands out up to 32 pairs.
+    template <class HandOut>
+    __device__ void flush(const HandOut& handOut) {
+        __syncwarp();
+        const std::uint32_t size = min(count_, 32u);
+        count_ -= size;
+        if (threadIdx.x % 32 < size) handOut(pairs_[count_ + threadIdx.x % 32]);
+        __syncwarp();
+    }
+
+  private:
+    Pair* pairs_;
+    std::uint32_t count_ = 0;  // the same in all threads of the warp
+};
+
+/// A thread for each body in each cell. Member i meets the half of the others that follow it, the
+/// first after the last, so that all members have as much to do.
+template <class Real, class Found>
+__global__ void __launch_bounds__(largestBlock)
+    comparePerBody(Bodies<Real> bodies, DeviceCells cells, CellOwnership<Real> ownership,
+                   Real inflation, Found found, StepCounts* counts) {
+    // Several pairs are compared before one is handed out, so that their loads overlap.
+    constexpr std::uint32_t together = 8;
+    extern __shared__ FoundPairs::Pair foundPairs[];
+    FoundPairs waiting(foundPairs + threadIdx.x / 32 * FoundPairs::room);
+    const auto handOutPair = [&](const FoundPairs::Pair& pair) {
+        handOut(ownership, pair.cell, Member<Real>(bodies, cells, pair.p),
+                Member<Real>(bodies, cells, pair.q), found);
+    };
+
+    unsigned long long tested = 0;
+    const bool there = threadNumber() < cells.entries;
+    const std::uint32_t entry = there ? threadNumber() : cells.entries - 1;
+    const std::uint32_t cell = cellOf(cells, entry);
+    const std::uint32_t first = cells.offsets[cell];
+    const std::uint32_t members = cells.offsets[cell + 1] - first;
+    const std::uint32_t i = entry - first;
+    const Member<Real> self(bodies, cells, entry);
+    // Opposite members of an even number meet once.
+    const std::uint32_t partners =
+        there ? (members - 1) / 2 + (members % 2 == 0 && 2 * i < members) : 0;
+    const auto partner = [&](std::uint32_t k) { return i + k < members ? i + k : i + k - members; };
+    const std::uint32_t most = __reduce_max_sync(0xffff'ffffu, partners);
+    for (std::uint32_t start = 1; start <= most; start += together) {
+        std::uint32_t hits = 0;
+#pragma unroll
+        for (std::uint32_t l = 0; l < together; ++l) {
+            const bool inside = start + l <= partners;
+            const std::uint32_t j = partner(inside ? start + l : 0);
+            const Member<Real> other(bodies, cells, first + j);
+            const bool hit = i < j ? membersOverlap(self, other, inflation)
+                                   : membersOverlap(other, self, inflation);
+            tested += inside && !(self.body.isStatic() && other.body.isStatic());
+            hits |= std::uint32_t(inside && hit) << l;
+        }
+        for (; __any_sync(0xffff'ffffu, hits != 0); hits &= hits - 1) {
+            const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
+            waiting.add(hits != 0, {cell, first + min(i, j), first + max(i, j)}, handOutPair);
+        }
+    }
+    waiting.flush(handOutPair);
+    if (counts != nullptr) addFromBlock(&counts->tested, tested);
+}
+
+/// A thread for each cell, as in the report.
+template <class Real, class Found>
+__global__ void __launch_bounds__(largestBlock)
+    comparePerCell(Bodies<Real> bodies, DeviceCells cells, CellOwnership<Real> ownership,
+                   Real inflation, Found found, StepCounts* counts) {
+    unsigned long long tested = 0;
+    const std::uint32_t cell = threadNumber();
+    if (cell < cells.cells) {
+        const std::uint32_t last = cells.offsets[cell + 1];
+        for (std::uint32_t i = cells.offsets[cell]; i < last; ++i) {
+            const Member<Real> self(bodies, cells, i);
+            if (self.body.isStatic()) break;
+            for (std::uint32_t j = i + 1; j < last; ++j) {
+                const Member<Real> other(bodies, cells, j);
+                ++tested;
+                if (membersOverlap(self, other, inflation)) {
+                    handOut(ownership, cell, self, other, found);
+                }
+            }
+        }
+    }
+    if (counts != nullptr) addFromBlock(&counts->tested, tested);
+}
+
+template <class Real, class Found>
+void comparePairs(const Launch& launch, const Bodies<Real>& bodies, const DeviceCells& cells,
+                  const CellOwnership<Real>& ownership, Real inflation, const Found& found,
+                  StepCounts* counts) {
+    if (cells.entries == 0) return;
+    const int size = launch.options.blockSize;
+    if (launch.options.threadPer == CudaThread::Cell) {
+        comparePerCell<<<blocksFor(cells.cells, size), size, 0, launch.stream>>>(
+            bodies, cells, ownership, inflation, found, counts);
+    } else {
+        const std::size_t shared = size / 32 * FoundPairs::room * sizeof(FoundPairs::Pair);
+        comparePerBody<<<blocksFor(cells.entries, size), size, shared, launch.stream>>>(
+            bodies, cells, ownership, inflation, found, counts);
+    }
+    checkLaunch("comparePairs");
+}
+
+template <class Real>
+__global__ void __launch_bounds__(largestBlock)
+    testCandidatesKernel(Bodies<Real> bodies, const CandidatePair* candidates, std::uint32_t count,
+                         ToContacts<Real> found) {
+    const std::uint32_t i = threadNumber();
+    if (i >= count) return;
+    const CandidatePair pair = candidates[i];
+    if (overlap(bodies, pair.a, pair.b)) found(pair.a, pair.b);
+}
+
+}  // namespace
+
+template <class Real>
+void collectCandidates(const Launch& launch, const Bodies<Real>& bodies, const DeviceCells& cells,
+                       const CellOwnership<Real>& ownership, Real inflation,
+                       const CandidateList& candidates) {
+    comparePairs(launch, bodies, cells, ownership, inflation, ToCandidates<Real>{candidates},
+                 nullptr);
+}
+
+template <class Real>
+void findContacts(const Launch& launch, const Bodies<Real>& bodies, const DeviceCells& cells,
+                  const CellOwnership<Real>& ownership, Real dt,
+                  const DeviceContacts<Real>& contacts) {
+    comparePairs(launch, bodies, cells, ownership, Real(0), ToContacts<Real>{contacts, bodies, dt},
+                 contacts.counts);
+}
+
+template <class Real>
+void testCandidates(const Launch& launch, const Bodies<Real>& bodies,
+                    const CandidatePair* candidates, std::uint32_t count, Real dt,
+                    const DeviceContacts<Real>& contacts) {
+    const int size = launch.options.blockSize;
+    testCandidatesKernel<<<blocksFor(count, size), size, 0, launch.stream>>>(
+        bodies, candidates, count, ToContacts<Real>{contacts, bodies, dt});
+    checkLaunch("testCandidatesKernel");
+}
+
+#define QUADRILLE_INSTANTIATE(Real)                                                            \
+    template void collectCandidates(const Launch&, const Bodies<Real>&, const DeviceCells&,    \
+                                    const CellOwnership<Real>&, Real, const CandidateList&);   \
+    template void findContacts(const Launch&, const Bodies<Real>&, const DeviceCells&,         \
+                               const CellOwnership<Real>&, Real, const DeviceContacts<Real>&); \
+    template void testCandidates(const Launch&, const Bodies<Real>&, const CandidatePair*,     \
+                                 std::uint32_t, Real, const DeviceContacts<Real>&);
+QUADRILLE_INSTANTIATE(double)
+QUADRILLE_INSTANTIATE(float)
+
+}  // namespace quadrille::cuda

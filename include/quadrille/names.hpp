@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <quadrille/config.hpp>
+#include <quadrille/step_report.hpp>
+
+/// The names of everything that can be chosen, both ways; the command line, files and every output
+/// use them.
+
+namespace quadrille {
+
+template <class Kind>
+struct Named {
+    Kind kind;
+    std::string_view name;
+    std::string_view about;  ///< what it is good for, half a sentence
+};
+
+/// All that there are, in the order in which they are listed.
+std::span<const Named<Law>> laws();
+std::span<const Named<ResolverKind>> resolvers();
+std::span<const Named<Precision>> precisions();
+/// Each with its default parameters.
+std::span<const Named<PartitionerConfig>> partitioners();
+
+std::string_view name(Law law);
+std::string_view name(ResolverKind resolver);
+std::string_view name(Precision precision);
+std::string_view name(const PartitionerConfig& config);
+std::string_view name(Phase phase);
+
+/// What has the name, or nothing.
+template <class Kind>
+std::optional<Kind> find(std::span<const Named<Kind>> all, std::string_view name) {
+    for (const Named<Kind>& named : all) {
+        if (named.name == name) return named.kind;
+    }
+    return std::nullopt;
+}
+
+/// Whether the law runs on the resolver. `Auto` runs every law.
+bool runsOn(Law law, ResolverKind resolver);
+
+}  // namespace quadrille

@@ -1,0 +1,41 @@
+#include "collision/continuous/resting_bodies.hpp"
+
+namespace quadrille {
+
+/// Lets a body fall unless something holds it, and notes that it has changed.
+template <class Real, class Path>
+bool RestingBodies<Real, Path>::release(std::uint32_t row, int axis, double now) {
+    const auto others = search_.neighbours()[row];
+    if (!quadrille::release(search_.motion(), row, others, axis, now)) return false;
+    ++search_.stamp(row);
+    state_.changed.push_back(row);
+    return true;
+}
+
+template <class Real, class Path>
+bool RestingBodies<Real, Path>::release(const PairEvent& event) {
+    const int axis = event.axes == axisX ? 0 : 1;
+    const bool first = release(event.a, axis, event.time);
+    const bool second = !event.withStatic() && release(event.b.row(), axis, event.time);
+    return first || second;
+}
+
+template <class Real, class Path>
+void RestingBodies<Real, Path>::releaseFromChanged(double now) {
+    if (!state_.mayRest) return;
+    for (std::size_t i = 0; i < state_.changed.size(); ++i) {
+        for (int axis = 0; axis < 2; ++axis) {
+            const std::uint32_t row = state_.changed[i];
+            release(row, axis, now);
+            if (search_.motion().rests(row, axis)) continue;
+            for (const BodyRef b : search_.neighbours()[row]) {
+                if (!b.isStatic()) release(b.row(), axis, now);
+            }
+        }
+    }
+}
+
+template class RestingBodies<double, FallingPath>;
+template class RestingBodies<float, FallingPath>;
+
+}  // namespace quadrille

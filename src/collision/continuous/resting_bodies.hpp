@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "collision/continuous/event_loop_state.hpp"
+#include "collision/continuous/event_search.hpp"
+#include "collision/rules/rest_rules.hpp"
+
+namespace quadrille {
+
+/// Lets bodies fall that rested when nothing holds them any more.
+template <class Real, class Path>
+class RestingBodies {
+  public:
+    using Search = EventSearch<Real, Path>;
+
+    /// Both must outlive this.
+    RestingBodies(const Search& search, EventLoopState& state) : search_(search), state_(state) {}
+
+    /// Carries out the end of a support. Returns whether any body falls.
+    bool release(const PairEvent& event);
+
+    /// Looks at the bodies that have changed, at what rested on them, and at what rested on that.
+    void releaseFromChanged(double now);
+
+  private:
+    bool release(std::uint32_t row, int axis, double now);
+
+    const Search& search_;
+    EventLoopState& state_;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+
+#include <quadrille/body_ref.hpp>
+#include <quadrille/detail/host_device.hpp>
+
+#include "collision/rules/contact_law.hpp"
+#include "collision/rules/paths.hpp"
+#include "collision/rules/trajectory.hpp"
+
+/// What holds bodies that fall, for host and device alike: who rests on whom, and until when.
+
+namespace quadrille {
+
+/// Until when `upper` stands over `lower`, which it touches along the axis; -never if it does not.
+template <class Real, class Path>
+QUADRILLE_HD inline double restsUntil(const ExactMotion<Real, Path>& motion, std::uint32_t upper,
+                                      BodyRef lower, int axis, double now) {
+    const Path p = motion.path(upper, axis);
+    const Path q = motion.path(lower, axis);
+    const double reach = motion.reachOf(upper, lower, axis);
+    const double distance = q.position(now) - p.position(now);
+    if (!(distance * motion.gravity(axis) > 0)) return -never;
+    if (magnitude(magnitude(distance) - reach) > motion.rounding(p, q, reach, now)) return -never;
+    return alongsideUntil(motion, upper, lower, 1 - axis, now);
+}
+
+/// Whether what meets at a speed of `closing`, pressed together by an acceleration, does not rise
+/// above the rounding of positions any more.
+QUADRILLE_HD inline bool comesToRest(double closing, double pressure, double rounding,
+                                     double restitution) {
+    const double parting = closing > 0 ? restitution * closing : closing;
+    return pressure > 0 && parting * parting <= 2 * pressure * rounding;
+}
+
+/// Whether one of the bodies that `row` may meet holds it up.
+template <class Real, class Path, class Others>
+QUADRILLE_HD inline bool supported(const ExactMotion<Real, Path>& motion, std::uint32_t row,
+                                   const Others& others, int axis, double now) {
+    for (const BodyRef b : others) {
+        if (motion.holds(b, axis) && restsUntil(motion, row, b, axis, now) > now) return true;
+    }
+    return false;
+}
+
+/// Lets a body fall that rested, if none of those that it may meet holds it any more. Returns
+/// whether it does.
+template <class Real, class Path, class Others>
+QUADRILLE_HD inline bool release(const ExactMotion<Real, Path>& motion, std::uint32_t row,
+                                 const Others& others, int axis, double now) {
+    if (!motion.rests(row, axis) || supported(motion, row, others, axis, now)) return false;
+    const double at = motion.path(row, axis).position(now);
+    motion.setRests(row, axis, false);
+    motion.set(row, axis, at, 0, now);
+    return true;
+}
+
+}  // namespace quadrille

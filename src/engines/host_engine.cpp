@@ -1,0 +1,91 @@
+#include "engines/host_engine.hpp"
+
+#include <chrono>
+
+#include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
+
+#include "collision/integrate.hpp"
+#include "engines/registry.hpp"
+
+namespace quadrille {
+
+template <class Real>
+HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSize,
+                             const Thresholds& thresholds)
+    : HostEngine(config, worldSize, threadsOf(config), thresholds) {}
+
+template <class Real>
+HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSize,
+                             unsigned threads, const Thresholds& thresholds)
+    : config_(config),
+      team_(threads, thresholds),
+      partitioner_(makePartitioner<Real>(config.partitioner, worldSize, team_)),
+      law_(makeLaw<Real>(config, team_)) {
+    if (config.countMissedPairs) {
+        missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
+    }
+    if (config.law == Law::Continuous && !partitioner_->partition().complete) {
+        throw NotAvailable("the law '" + std::string(name(config.law)) +
+                           "' needs a partition that misses no pair");
+    }
+}
+
+template <class Real>
+void HostEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport& report) {
+    const LawBodies<Real> bodies = store.advance<Real>(law_->kept());
+    PhaseClock clock(report, config_.profile);
+    const bool audited = missedPairs_ && missedPairs_->picks(window.number);
+    Step<Real> step{.parameters = parametersOf<Real>(config_.step, window.from),
+                    .from = window.from,
+                    .to = window.to,
+                    .keepContacts = window.keepContacts,
+                    .clock = clock};
+    if (!window.begun) law_->begin(bodies, step);
+    window.begun = true;
+    clock.finish(Phase::Integrate);
+    for (double now = window.from; now < window.to;) {
+        if (const auto reach = law_->reach(bodies, now, window.to)) {
+            partition(bodies, *reach, report);
+            clock.finish(Phase::Partition);
+            if (audited) audit(bodies, *reach, report, clock);
+        }
+        now = law_->advance(bodies, partitioner_->partition(), now, step);
+        clock.finish(Phase::Resolve);
+    }
+    report.contacts = step.counts.contacts;
+    report.collisions = step.counts.collisions;
+    report.pairsTested = step.counts.pairsTested;
+}
+
+template <class Real>
+void HostEngine<Real>::partition(const LawBodies<Real>& bodies, const Reach<Real>& reach,
+                                 StepReport& report) {
+    const auto dt = static_cast<Real>(config_.step.dt);
+    const bool rebuilt = partitioner_->update(bodies.read(), dt, reach);
+    report.rebuilt = report.rebuilt || rebuilt;
+    // A skin notices a NaN as a body that left its box, so checking at builds sees every one; a
+    // tree that is kept for so many steps, whatever happens, notices nothing.
+    if (rebuilt || !partitioner_->partition().complete) requireFinite(bodies.read(), team_);
+}
+
+/// Adds to the report what the partition does not show of the pairs that overlap, or would after
+/// moving up to `reach`.
+template <class Real>
+void HostEngine<Real>::audit(const LawBodies<Real>& bodies, const Reach<Real>& reach,
+                             StepReport& report, PhaseClock& clock) {
+    const auto start = std::chrono::steady_clock::now();
+    const PairAudit audit =
+        missedPairs_->count(bodies.read(), partitioner_->partition(), reach.common);
+    report.audited = true;
+    report.overlappingPairs += audit.overlapping;
+    report.missedPairs += audit.missed;
+    report.auditSeconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    clock.restart();
+}
+
+template class HostEngine<double>;
+template class HostEngine<float>;
+
+}  // namespace quadrille

@@ -1,0 +1,396 @@
+// The store of the bodies: who has the newest state, when an edit counts, and that all columns go
+// along wherever rows move.
+
+#include "core/body_store.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <map>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "support.hpp"
+
+namespace quadrille {
+namespace {
+
+using Order = std::vector<std::uint32_t>;
+
+/// A moving body whose every number tells its entity.
+BodyStore::NewBody numbered(std::uint32_t entity, bool isStatic = false) {
+    const double n = entity;
+    return {.position = {n + 0.125, n + 0.25},
+            .halfSize = {n + 1, n + 2},
+            .velocity = isStatic ? Vec2(0, 0) : Vec2(n + 0.5, n + 0.625),
+            .mass = n + 3,
+            .isStatic = isStatic,
+            .entity = entity};
+}
+
+/// Moving bodies 0 to 5, static ones 10 to 13.
+BodyStore numberedStore() {
+    BodyStore store;
+    for (std::uint32_t i = 0; i < 6; ++i) store.append(numbered(i));
+    for (std::uint32_t i = 10; i < 14; ++i) store.append(numbered(i, true));
+    return store;
+}
+
+/// Fails unless every row has the numbers of its entity, those of the law's columns included.
+void expectNumbered(const BodyStore& store, const Order& moving, const Order& fixed) {
+    const auto& [m, f] = std::get<BodyStore::Columns<double>>(store.columns());
+    ASSERT_EQ(m.size(), moving.size());
+    ASSERT_EQ(f.size(), fixed.size());
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        SCOPED_TRACE("moving row " + std::to_string(i));
+        const BodyStore::NewBody is = numbered(m.entity[i]);
+        EXPECT_EQ(m.entity[i], moving[i]);
+        EXPECT_EQ(Vec2(m.x[i], m.y[i]), is.position);
+        EXPECT_EQ(Vec2(m.vx[i], m.vy[i]), is.velocity);
+        EXPECT_EQ(Vec2(m.halfWidth[i], m.halfHeight[i]), is.halfSize);
+        EXPECT_EQ(m.mass[i], is.mass);
+        if (m.anchors.kept()) {
+            EXPECT_EQ(m.anchors.stored()[i].timeX, 100 + m.entity[i]);
+        }
+        if (m.rests.kept()) {
+            EXPECT_EQ(m.rests.stored()[i], 50 + m.entity[i]);
+        }
+    }
+    for (std::size_t i = 0; i < f.size(); ++i) {
+        SCOPED_TRACE("static row " + std::to_string(i));
+        const BodyStore::NewBody is = numbered(f.entity[i], true);
+        EXPECT_EQ(f.entity[i], fixed[i]);
+        EXPECT_EQ(Vec2(f.x[i], f.y[i]), is.position);
+        EXPECT_EQ(Vec2(f.halfWidth[i], f.halfHeight[i]), is.halfSize);
+    }
+}
+
+/// Writes numbers of the entities to the columns of a law's own.
+void numberLawState(BodyStore& store) {
+    const auto bodies = store.advance<double>({.anchors = true, .rests = true});
+    for (std::size_t i = 0; i < bodies.moving.size(); ++i) {
+        bodies.anchors[i].timeX = 100 + bodies.moving.entity[i];
+        bodies.rests[i] = static_cast<std::uint8_t>(50 + bodies.moving.entity[i]);
+    }
+}
+
+Order createdOrder(const CreationOrder& created, std::size_t rows) {
+    Order numbers;
+    for (std::size_t i = 0; i < rows; ++i) numbers.push_back(created[i]);
+    return numbers;
+}
+
+// ---- who has the newest state
+
+/// Knows that row 0 has come to x = 77.
+struct FakeMirror : BodyMirror {
+    int fetched = 0;
+    bool lost = false;
+
+    void fetch(BodyStore& store) override {
+        ++fetched;
+        if (lost) throw DeviceError("lost");
+        store.advance<double>({}).moving.x[0] = 77;
+    }
+};
+
+TEST(BodyMirror, IsAskedOnceByWhoeverReadsFirst) {
+    BodyStore store = numberedStore();
+    FakeMirror mirror;
+    store.newestIs(&mirror);
+    EXPECT_EQ(mirror.fetched, 0);
+    const BodyStore& reader = store;
+    EXPECT_EQ(reader.read<double>().moving.x[0], 77);
+    EXPECT_EQ(reader.position(BodyRef::moving(0)).x(), 77);
+    EXPECT_EQ(mirror.fetched, 1) << "what is here already is not asked for again";
+    store.newestIs(&mirror);
+    reader.read<double>();
+    EXPECT_EQ(mirror.fetched, 2);
+}
+
+TEST(BodyMirror, IsAskedByEverybodyWhoNeedsTheStateAndByNobodyElse) {
+    FakeMirror mirror;
+    const auto asks = [&](auto&& action) {
+        BodyStore store = numberedStore();
+        store.newestIs(&mirror);
+        const int before = mirror.fetched;
+        action(store);
+        return mirror.fetched - before;
+    };
+    using Store = BodyStore&;
+    EXPECT_EQ(asks([](Store s) { s.read<double>(); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.edit<double>(); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.advance<double>({}); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.columns(); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.append(numbered(7)); }), 1);
+    EXPECT_EQ(asks([](Store s) {
+                  s.erase([](std::uint32_t) { return false; }, [](std::uint32_t, BodyRef) {});
+              }),
+              1);
+    EXPECT_EQ(asks([](Store s) { s.permute(Order{0, 1, 2, 3, 4, 5}, Order{0, 1, 2, 3}); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.position(BodyRef::moving(1)); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.velocity(1); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.setPosition(BodyRef::moving(1), {0, 0}); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.setHalfSize(BodyRef::moving(1), {1, 1}); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.setVelocityAndMass(1, {0, 0}, 1); }), 1);
+    EXPECT_EQ(asks([](Store s) { s.setPrecision(Precision::Float); }), 1);
+
+    EXPECT_EQ(asks([](Store s) { s.movingCount(); }), 0);
+    EXPECT_EQ(asks([](Store s) { s.setPrecision(Precision::Double); }), 0) << "it has it already";
+    EXPECT_EQ(asks([](Store s) { s.halfSize(BodyRef::moving(1)); }), 0) << "no step changes it";
+    EXPECT_EQ(asks([](Store s) { s.mass(1); }), 0) << "no step changes it";
+    EXPECT_EQ(asks([](Store s) { s.reserve(100); }), 0);
+    EXPECT_EQ(asks([](Store s) { s.countEdit(); }), 0);
+    EXPECT_EQ(asks([](Store s) { s.newestIs(nullptr); }), 0);
+    EXPECT_EQ(asks([](Store s) { s.replace(BodyStore::AnyColumns{}, true); }), 0);
+}
+
+TEST(BodyMirror, OfAStateThatIsNotWantedIsForgotten) {
+    BodyStore store = numberedStore();
+    FakeMirror mirror;
+    store.newestIs(&mirror);
+    store.newestIs(nullptr);
+    EXPECT_EQ(store.read<double>().moving.x[0], 0.125);
+    store.newestIs(&mirror);
+    store.replace(numberedStore().columns(), true);
+    EXPECT_EQ(store.read<double>().moving.x[0], 0.125);
+    EXPECT_EQ(mirror.fetched, 0);
+}
+
+TEST(BodyMirror, ThatIsLostIsAnErrorOnceAndLeavesTheLastKnownState) {
+    BodyStore store = numberedStore();
+    FakeMirror mirror;
+    mirror.lost = true;
+    store.newestIs(&mirror);
+    EXPECT_THROW(store.read<double>(), DeviceError);
+    EXPECT_EQ(store.read<double>().moving.x[0], 0.125);
+}
+
+// ---- edits
+
+TEST(BodyStore, AnEditCountsWhenItEnds) {
+    BodyStore store = numberedStore();
+    const std::uint64_t before = store.revision();
+    {
+        const auto edit = store.edit<double>();
+        edit->moving.x[2] = 9;
+        (*edit).moving.vy[2] = 8;
+        EXPECT_EQ(store.revision(), before);
+    }
+    EXPECT_EQ(store.revision(), before + 1);
+    EXPECT_EQ(store.read<double>().moving.x[2], 9);
+    EXPECT_EQ(store.read<double>().moving.vy[2], 8);
+    EXPECT_EQ(store.read<double>().revision, before + 1);
+}
+
+TEST(BodyStore, ReadingAndAdvancingAreNoEdits) {
+    BodyStore store = numberedStore();
+    const std::uint64_t before = store.revision();
+    store.read<double>();
+    store.advance<double>({.anchors = true}).moving.x[0] = 3;
+    store.columns();
+    store.reserve(50);
+    EXPECT_EQ(store.revision(), before);
+    EXPECT_EQ(store.read<double>().moving.x[0], 3);
+}
+
+TEST(BodyStore, KnowsWhetherItWasEditedSinceALawAdvancedIt) {
+    BodyStore store = numberedStore();
+    EXPECT_TRUE(store.edited());
+    EXPECT_TRUE(store.advance<double>({}).edited);
+    EXPECT_FALSE(store.edited());
+    EXPECT_FALSE(store.advance<double>({}).edited);
+    const auto expectEdit = [&](const char* what, auto&& action) {
+        store.advance<double>({});
+        action();
+        EXPECT_TRUE(store.edited()) << what;
+        EXPECT_TRUE(store.advance<double>({}).edited) << what;
+    };
+    expectEdit("edit", [&] { store.edit<double>(); });
+    expectEdit("append", [&] { store.append(numbered(6)); });
+    expectEdit("erase", [&] {
+        store.erase([](std::uint32_t e) { return e == 6; }, [](std::uint32_t, BodyRef) {});
+    });
+    expectEdit("position", [&] { store.setPosition(BodyRef::fixed(1), {0, 0}); });
+    expectEdit("size", [&] { store.setHalfSize(BodyRef::moving(1), {1, 1}); });
+    expectEdit("velocity", [&] { store.setVelocityAndMass(1, {0, 0}, 1); });
+    expectEdit("gravity", [&] { store.countEdit(); });
+    expectEdit("replace", [&] { store.replace(numberedStore().columns(), true); });
+    store.replace(numberedStore().columns(), false);
+    EXPECT_FALSE(store.edited()) << "a run that is resumed goes on as if nothing had happened";
+    const std::uint64_t before = store.revision();
+    store.permute(Order{1, 0, 2, 3, 4, 5}, Order{0, 1, 2, 3});
+    EXPECT_NE(store.revision(), before) << "other bodies are in the rows";
+    EXPECT_FALSE(store.edited()) << "but nothing has happened to them";
+    store.countEdit();
+    store.permute(Order{1, 0, 2, 3, 4, 5}, Order{0, 1, 2, 3});
+    EXPECT_TRUE(store.edited());
+}
+
+TEST(BodyStore, ARefusedBodyLeavesNothing) {
+    BodyStore store = numberedStore();
+    store.setPrecision(Precision::Float);
+    store.advance<float>({});
+    for (const bool isStatic : {false, true}) {
+        BodyStore::NewBody bad = numbered(20, isStatic);
+        bad.halfSize = {1e-60, 1};
+        EXPECT_THROW(store.append(bad), Error);
+    }
+    BodyStore::NewBody heavy = numbered(20);
+    heavy.mass = 1e60;
+    EXPECT_THROW(store.append(heavy), Error);
+    EXPECT_THROW(store.setVelocityAndMass(0, {0, 1e60}, 1), Error);
+    EXPECT_EQ(store.movingCount(), 6u);
+    EXPECT_EQ(store.staticCount(), 4u);
+    EXPECT_EQ(store.velocity(0), numbered(0).velocity);
+    EXPECT_FALSE(store.edited());
+}
+
+// ---- the columns of a law's own
+
+TEST(BodyStore, KeepsTheColumnsThatALawAsksFor) {
+    BodyStore store = numberedStore();
+    EXPECT_TRUE(store.advance<double>({}).anchors.empty());
+    auto bodies = store.advance<double>({.anchors = true});
+    ASSERT_EQ(bodies.anchors.size(), 6u);
+    EXPECT_TRUE(bodies.rests.empty());
+    EXPECT_EQ(bodies.plain().moving.anchors, bodies.anchors.data());
+    EXPECT_EQ(bodies.plain().moving.rests, nullptr);
+    for (const Anchor<double>& anchor : bodies.anchors) {
+        EXPECT_NE(anchor.timeX, anchor.timeX) << "unknown";
+        EXPECT_NE(anchor.timeY, anchor.timeY) << "unknown";
+    }
+    bodies.anchors[2].timeX = 5;
+    store.append(numbered(6));
+    bodies = store.advance<double>({.anchors = true, .rests = true});
+    ASSERT_EQ(bodies.anchors.size(), 7u);
+    EXPECT_EQ(bodies.anchors[2].timeX, 5);
+    EXPECT_NE(bodies.anchors[6].timeX, bodies.anchors[6].timeX) << "a new body's is unknown, too";
+    EXPECT_EQ(bodies.rests[6], 0);
+    bodies = store.advance<double>({.rests = true});
+    EXPECT_TRUE(bodies.anchors.empty());
+    bodies = store.advance<double>({.anchors = true});
+    EXPECT_NE(bodies.anchors[2].timeX, 5) << "a law that comes back finds nothing of old";
+}
+
+TEST(BodyStore, ConversionDropsTheLawsOwnStateAndKeepsTheRest) {
+    BodyStore store = numberedStore();
+    numberLawState(store);
+    store.permute(Order{3, 1, 0, 5, 4, 2}, Order{3, 0, 1, 2});
+    store.setPrecision(Precision::Float);
+    const auto floats = store.advance<float>({.anchors = true, .rests = true});
+    for (const auto& anchor : floats.anchors) EXPECT_NE(anchor.timeX, anchor.timeX);
+    for (const auto rest : floats.rests) EXPECT_EQ(rest, 0);
+    store.setPrecision(Precision::Double);
+    expectNumbered(store, {3, 1, 0, 5, 4, 2}, {13, 10, 11, 12});
+    EXPECT_FALSE(std::get<BodyStore::Columns<double>>(store.columns()).moving.anchors.kept());
+    EXPECT_EQ(createdOrder(store.read<double>().moving.created, 6), (Order{3, 1, 0, 5, 4, 2}));
+    EXPECT_EQ(createdOrder(store.read<double>().fixed.created, 4), (Order{3, 0, 1, 2}));
+}
+
+// ---- rows
+
+TEST(BodyStore, PermuteTakesAllColumnsAlongAndKeepsTheOrderOfCreation) {
+    BodyStore store = numberedStore();
+    numberLawState(store);
+    EXPECT_TRUE(store.read<double>().moving.created.isRowOrder());
+    store.permute(Order{3, 1, 0, 5, 4, 2}, Order{3, 0, 1, 2});
+    expectNumbered(store, {3, 1, 0, 5, 4, 2}, {13, 10, 11, 12});
+    const auto bodies = store.read<double>();
+    EXPECT_EQ(createdOrder(bodies.moving.created, 6), (Order{3, 1, 0, 5, 4, 2}));
+    EXPECT_EQ(createdOrder(bodies.fixed.created, 4), (Order{3, 0, 1, 2}));
+    const auto plain = store.advance<double>({}).plain();
+    EXPECT_EQ(plain.moving.created[3], 5u);
+    EXPECT_EQ(plain.fixed.created[0], 3u);
+    store.append(numbered(6));
+    EXPECT_EQ(store.read<double>().moving.created[6], 6u) << "the newest comes last";
+}
+
+TEST(BodyStore, PermuteRefusesAnOrderOfAnotherLength) {
+    BodyStore store = numberedStore();
+    EXPECT_THROW(store.permute(Order{0, 1}, Order{0, 1, 2, 3}), Error);
+    EXPECT_THROW(store.permute(Order{0, 1, 2, 3, 4, 5}, Order{}), Error);
+    expectNumbered(store, {0, 1, 2, 3, 4, 5}, {10, 11, 12, 13});
+}
+
+TEST(BodyStore, EraseTakesAllColumnsAlongEvenAfterPermute) {
+    BodyStore store = numberedStore();
+    numberLawState(store);
+    store.permute(Order{3, 1, 0, 5, 4, 2}, Order{3, 0, 1, 2});
+    std::map<std::uint32_t, BodyRef> moved;
+    store.erase([](std::uint32_t entity) { return entity == 1 || entity == 4 || entity == 13; },
+                [&](std::uint32_t entity, BodyRef to) { moved[entity] = to; });
+    expectNumbered(store, {3, 0, 5, 2}, {10, 11, 12});
+    EXPECT_EQ(createdOrder(store.read<double>().moving.created, 4), (Order{3, 0, 5, 2}));
+    EXPECT_EQ(createdOrder(store.read<double>().fixed.created, 3), (Order{0, 1, 2}));
+    // Of all that lie elsewhere now.
+    EXPECT_EQ(moved.at(0), BodyRef::moving(1));
+    EXPECT_EQ(moved.at(5), BodyRef::moving(2));
+    EXPECT_EQ(moved.at(2), BodyRef::moving(3));
+    EXPECT_EQ(moved.at(10), BodyRef::fixed(0));
+    EXPECT_EQ(moved.at(12), BodyRef::fixed(2));
+    EXPECT_FALSE(moved.contains(1));
+    EXPECT_FALSE(moved.contains(13));
+}
+
+/// Counts what the one list of columns hands out.
+template <class Set>
+std::size_t columnsOf(const Set& set, std::size_t rows) {
+    std::size_t count = 0;
+    set.forEachColumn(
+        [&](ColumnInfo info, const auto& column) {
+            ++count;
+            EXPECT_NE(std::string(info.name), "");
+            if constexpr (requires { column.kept(); }) {
+                EXPECT_EQ(column.stored().size(), column.kept() ? rows : 0);
+            } else {
+                EXPECT_EQ(column.size(), rows) << info.name;
+            }
+        },
+        set);
+    return count;
+}
+
+TEST(BodyStore, TheListOfColumnsNamesThemAll) {
+    BodyStore store = numberedStore();
+    numberLawState(store);
+    const auto& [m, f] = std::get<BodyStore::Columns<double>>(store.columns());
+    EXPECT_EQ(columnsOf(m, 6), 11u);
+    EXPECT_EQ(columnsOf(f, 4), 6u);
+    // A column that is not on the list has a place in the type and none in its sum.
+    std::size_t bytes = 0;
+    const auto add = [&](ColumnInfo, const auto& column) { bytes += sizeof column; };
+    m.forEachColumn(add, m);
+    EXPECT_EQ(bytes, sizeof m);
+    bytes = 0;
+    f.forEachColumn(add, f);
+    EXPECT_EQ(bytes, sizeof f);
+}
+
+TEST(BodyStore, HandsOutConstValuesToReaders) {
+    using View = decltype(std::declval<const BodyStore&>().read<double>());
+    static_assert(std::is_same_v<decltype(View::moving.x[0]), const double&>);
+    static_assert(std::is_same_v<decltype(View::moving.entity[0]), const std::uint32_t&>);
+    using Editable = std::remove_cvref_t<decltype(*std::declval<BodyStore::Edit<double>&>())>;
+    static_assert(std::is_same_v<decltype(Editable::moving.x[0]), double&>);
+    static_assert(std::is_same_v<decltype(Editable::fixed.x[0]), const double&>);
+    const BodyStore store = numberedStore();
+    EXPECT_THROW(store.read<float>(), Error);
+}
+
+TEST(BodyStore, BytesCountEveryColumn) {
+    BodyStore store;
+    EXPECT_EQ(store.bytes(), 0u);
+    store.append(numbered(0));
+    const std::size_t uniform = store.bytes();
+    EXPECT_EQ(uniform, 4 * sizeof(double) + sizeof(std::uint32_t));
+    store.append(numbered(1));  // another size, another mass
+    EXPECT_EQ(store.bytes(), 2 * (7 * sizeof(double) + sizeof(std::uint32_t)));
+    store.advance<double>({.anchors = true});
+    EXPECT_EQ(store.bytes(),
+              2 * (7 * sizeof(double) + sizeof(std::uint32_t)) + 2 * sizeof(Anchor<double>));
+}
+
+}  // namespace
+}  // namespace quadrille
