@@ -198,7 +198,7 @@ double EventDriven<Real, Path>::chooseLife(std::size_t rows, double now) const {
 
 template <class Real, class Path>
 std::optional<Reach<Real>> EventDriven<Real, Path>::reach(const LawBodies<Real>& bodies, double now,
-                                                          double) {
+                                                          double to) {
     if (now < horizon_) return std::nullopt;
     const auto& m = bodies.moving;
     if (m.size() == 0) {
@@ -208,6 +208,8 @@ std::optional<Reach<Real>> EventDriven<Real, Path>::reach(const LawBodies<Real>&
     uniformMass_ = m.mass.uniform();
     survey(bodies);
     life_ = chooseLife(m.size(), now);
+    // Speeds near the largest number would make it so short that time stands still.
+    if (!(life_ >= 1e-5 * (to - now))) life_ = to - now;
     const double life = life_;
     horizon_ = now + life;
     partitionTime_ = now;
