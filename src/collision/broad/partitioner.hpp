@@ -30,6 +30,13 @@ struct Reach {
     Reach(Real ofMost, std::span<const Real> ofEach) : common(ofMost), own(ofEach) {}
 };
 
+/// How many of the members of a cell move; the static ones stand last.
+inline std::size_t movingAmong(std::span<const BodyRef> members) {
+    std::size_t moving = members.size();
+    while (moving > 0 && members[moving - 1].isStatic()) --moving;
+    return moving;
+}
+
 /// Cells, and what the narrow phase needs to know about how they were made.
 template <class Real>
 struct Partition {
@@ -48,6 +55,10 @@ struct Partition {
     CrossedEdges crossedEdges(std::size_t cell, BodyRef body) const {
         if (!complete) return {false, false};
         return crossedEdgesOf(cells.coordinates[cell], rangeOf(body));
+    }
+    CrossedEdges crossedEdgesOfMoving(std::size_t cell, std::uint32_t row) const {
+        if (!complete) return {false, false};
+        return crossedEdgesOf(cells.coordinates[cell], ranges[row]);
     }
     /// The body of a place in `ranges`.
     BodyRef bodyAt(std::size_t i) const {

@@ -2,6 +2,7 @@
 
 #include "collision/make_record.hpp"
 #include "collision/rules/baseline_contact.hpp"
+#include "collision/rules/pair_geometry.hpp"
 
 namespace quadrille {
 
@@ -16,7 +17,6 @@ void SequentialBaseline<Real>::resolve(const LawBodies<Real>& view,
     const Real restitution = step.parameters.restitution;
 
     const auto resolvePair = [&](std::uint32_t a, BodyRef b) {
-        if (!overlap(bodies.now, a, b)) return;
         const BaselineOutcome<Real> outcome = resolveBaseline(bodies, a, b, restitution);
         hit_.push_back(a);
         if (!b.isStatic()) hit_.push_back(b.row());
@@ -28,11 +28,21 @@ void SequentialBaseline<Real>::resolve(const LawBodies<Real>& view,
     const Cells& cells = partition.cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto members = cells[c];
-        for (std::size_t i = 0; i < members.size(); ++i) {
-            if (members[i].isStatic()) break;  // members ascend: only static ones follow
-            for (std::size_t j = i + 1; j < members.size(); ++j) {
-                resolvePair(members[i].row(), members[j]);
-            }
+        const std::size_t moving = movingAmong(members);
+        for (std::size_t i = 0; i < moving; ++i) {
+            const std::uint32_t a = members[i].row();
+            Box<Real> box = movingBox(bodies.now, a);
+            const auto resolveAmong = [&](std::size_t first, std::size_t last, auto&& boxOf) {
+                for (std::size_t j = first; j < last; ++j) {
+                    if (!overlap(box, boxOf(members[j].row()))) continue;
+                    resolvePair(a, members[j]);
+                    box = movingBox(bodies.now, a);
+                }
+            };
+            resolveAmong(i + 1, moving,
+                         [&](std::uint32_t row) { return movingBox(bodies.now, row); });
+            resolveAmong(moving, members.size(),
+                         [&](std::uint32_t row) { return staticBox(bodies.now, row); });
             step.counts.pairsTested += members.size() - i - 1;
         }
     }

@@ -73,9 +73,7 @@ class CellWalk {
         for (std::size_t c = first; c < last; ++c) {
             const auto members = cells[c];
             if (members.size() < 2) continue;
-            // Members ascend, so the static ones stand last.
-            std::size_t moving = members.size();
-            while (moving > 0 && members[moving - 1].isStatic()) --moving;
+            const std::size_t moving = movingAmong(members);
             if (moving == 0) continue;
             gather(bodies, sizes, partition, c, members.first(moving));
             for (std::size_t i = 0; i + 1 < moving; ++i) {
@@ -148,7 +146,6 @@ class CellWalk {
         }
         const Real* const x = bodies.moving.x.data();
         const Real* const y = bodies.moving.y.data();
-        const bool more = !partition.extra.empty();
         std::size_t i = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
             Bits left = 0;
@@ -160,16 +157,18 @@ class CellWalk {
                 y_[i] = y[row];
                 width_[i] = sizes.width(row);
                 height_[i] = sizes.height(row);
-                if (more) {
-                    width_[i] += partition.extra[row];
-                    height_[i] += partition.extra[row];
-                }
-                const CrossedEdges edges = partition.crossedEdges(cell, members[i]);
+                const CrossedEdges edges = partition.crossedEdgesOfMoving(cell, row);
                 left |= Bits(edges.left) << l;
                 below |= Bits(edges.below) << l;
             }
             left_[b] = left;
             below_[b] = below;
+        }
+        if (!partition.extra.empty()) {
+            for (std::size_t k = 0; k < members.size(); ++k) {
+                width_[k] += partition.extra[members[k].row()];
+                height_[k] += partition.extra[members[k].row()];
+            }
         }
         for (; i < blocks * block; ++i) {
             x_[i] = std::numeric_limits<Real>::infinity();
