@@ -1,4 +1,4 @@
-#include "collision/rules/motion.hpp"
+#include "collision/rules/discrete_motion.hpp"
 #include "cuda/bodies/body_kernels.hpp"
 #include "cuda/device/launch.cuh"
 

@@ -7,7 +7,6 @@ namespace quadrille::cuda {
 template <class Real>
 void CudaLaw<Real>::begin(const LawBodies<Real>& bodies, Step<Real>& step) {
     records_.clear();
-    unfetched_ = 0;
     // The device first: if it fails, nothing has moved.
     bodies_.beginStep(bodies, step);
     integrateAll(bodies, step.parameters, device_.team());
@@ -20,20 +19,12 @@ double CudaLaw<Real>::advance(const LawBodies<Real>& bodies, const Partition<Rea
         cells_.update(partition, step.clock);
         const std::uint64_t before = step.counts.contacts;
         resolve(bodies, partition, step);
-        if (step.keepContacts) {
-            unfetched_ = step.counts.contacts - before;
-            lastStep_ = step.parameters;
-        }
+        const std::uint64_t found = step.counts.contacts - before;
+        if (step.keepContacts && found > 0) fetchContacts(found, step.parameters, records_);
+        // Last, so that a device that fails has changed nothing here.
         bodies_.writeBack(bodies, step.clock);
     }
     return step.to;
-}
-
-template <class Real>
-std::span<const ContactRecord> CudaLaw<Real>::contacts() {
-    if (unfetched_ > 0) fetchContacts(unfetched_, lastStep_, records_);
-    unfetched_ = 0;
-    return records_;
 }
 
 template <class Real>

@@ -24,7 +24,7 @@ class CudaLaw : public ContactLaw<Real> {
     }
     double advance(const LawBodies<Real>& bodies, const Partition<Real>& partition, double now,
                    Step<Real>& step) override;
-    std::span<const ContactRecord> contacts() override;
+    std::span<const ContactRecord> contacts() override { return records_; }
     std::size_t bytes() const override;
 
   protected:
@@ -36,7 +36,7 @@ class CudaLaw : public ContactLaw<Real> {
     virtual void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                          Step<Real>& step) = 0;
 
-    /// Brings contacts that the last step has kept on the device, in canonical order.
+    /// Brings the contacts that were resolved, kept on the device, in the order of the law.
     virtual void fetchContacts(std::size_t count, const StepParameters<Real>& step,
                                std::vector<ContactRecord>& records) const = 0;
 
@@ -46,8 +46,6 @@ class CudaLaw : public ContactLaw<Real> {
 
   private:
     std::vector<ContactRecord> records_;
-    std::size_t unfetched_ = 0;        // contacts of the last step that are only on the device
-    StepParameters<Real> lastStep_{};  // that has kept contacts
 };
 
 }  // namespace quadrille::cuda

@@ -80,13 +80,14 @@ class Simulation {
 
     // ---- what happened in the last step
 
-    /// Its contacts in canonical order; kept if SimulationConfig::keepContacts says so or a contact
-    /// listener is registered, and valid until the next step. Throws Error if they are not kept.
+    /// Its contacts in canonical order, or of `baseline` in that of the cells; kept if
+    /// SimulationConfig::keepContacts says so or a contact listener is registered, and valid until
+    /// the next step. Throws Error if they are not kept.
     std::span<const Contact> contacts() const;
     /// Its cells; empty before the first.
     const Cells& cells() const;
 
-    /// Called in canonical order for every contact, after all of a step's contacts are resolved.
+    /// Called for every contact, in the order of `contacts`, after all of a step's are resolved.
     Subscription onContact(std::function<void(const Contact&)> listener);
     /// Called after every step.
     Subscription onStep(std::function<void(const World&, const StepReport&)> observer);

@@ -8,7 +8,7 @@
 #include <quadrille/bodies.hpp>
 #include <quadrille/error.hpp>
 
-#include "collision/rules/motion.hpp"
+#include "collision/rules/discrete_motion.hpp"
 #include "collision/rules/step_parameters.hpp"
 #include "parallel/thread_team.hpp"
 

@@ -67,8 +67,8 @@ class ContactLaw {
     virtual double advance(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                            double now, Step<Real>& step) = 0;
 
-    /// The contacts of the last step in canonical order, if it was to keep them; valid until the
-    /// next one. Throws DeviceError.
+    /// The contacts of the last step, if it was to keep them, in the order in which they count:
+    /// canonical, or of `baseline` that of the cells. Valid until the next one.
     virtual std::span<const ContactRecord> contacts() = 0;
 
     /// Bytes of work space.

@@ -249,11 +249,7 @@ void BodyStore::setPosition(BodyRef body, const Vec2& position) {
                 rows.x.set(body.row(), x);
                 rows.y.set(body.row(), y);
             };
-            if (body.isStatic()) {
-                set(columns.fixed);
-            } else {
-                set(columns.moving);
-            }
+            body.isStatic() ? set(columns.fixed) : set(columns.moving);
         },
         columns_);
     countEdit();
@@ -269,11 +265,7 @@ void BodyStore::setHalfSize(BodyRef body, const Vec2& halfSize) {
                 rows.halfWidth.set(body.row(), halfWidth);
                 rows.halfHeight.set(body.row(), halfHeight);
             };
-            if (body.isStatic()) {
-                set(columns.fixed);
-            } else {
-                set(columns.moving);
-            }
+            body.isStatic() ? set(columns.fixed) : set(columns.moving);
         },
         columns_);
     countEdit();

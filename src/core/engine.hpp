@@ -37,7 +37,7 @@ class Engine {
 
     /// Of the last step; empty before the first.
     virtual const Cells& cells() const = 0;
-    /// Of the last step, in canonical order, if its window kept them.
+    /// Of the last step, in the order of its law, if its window kept them.
     virtual std::span<const ContactRecord> contacts() = 0;
 
     virtual ResolverKind resolver() const = 0;
@@ -54,7 +54,7 @@ class Engine {
 /// configuration falls back, DeviceError if a device is missing.
 std::unique_ptr<Engine> makeEngine(const SimulationConfig& config, const Vec2& worldSize);
 
-/// The resolver that Auto stands for, for so many moving bodies.
+/// The resolver that Auto stands for, for so many moving bodies (engines/choose_resolver.cpp).
 ResolverKind chooseResolver(const SimulationConfig& config, std::size_t movingCount);
 
 }  // namespace quadrille

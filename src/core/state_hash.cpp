@@ -4,7 +4,7 @@
 #include <quadrille/creation_ranks.hpp>
 #include <quadrille/state_hash.hpp>
 
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/mix64.hpp"
 
 namespace quadrille {
 

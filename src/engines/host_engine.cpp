@@ -45,10 +45,13 @@ void HostEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport& re
     window.begun = true;
     clock.finish(Phase::Integrate);
     for (double now = window.from; now < window.to;) {
-        if (const auto reach = law_->reach(bodies, now, window.to)) {
+        const auto reach = law_->reach(bodies, now, window.to);
+        if (reach) {
             partition(bodies, *reach, report);
             clock.finish(Phase::Partition);
-            if (audited) audit(bodies, *reach, report, clock);
+        }
+        if (audited && (reach || now == window.from)) {
+            audit(bodies, reach.value_or(Reach<Real>{}), report, clock);
         }
         now = law_->advance(bodies, partitioner_->partition(), now, step);
         clock.finish(Phase::Resolve);

@@ -3,12 +3,11 @@
 #include <array>
 #include <string>
 
-#include <quadrille/device.hpp>
 #include <quadrille/error.hpp>
 #include <quadrille/names.hpp>
 #include <quadrille/simulation.hpp>
 
-#include "collision/continuous/event_driven.hpp"
+#include "collision/continuous/continuous_law.hpp"
 #include "collision/discrete/sequential_baseline.hpp"
 #include "collision/discrete/sequential_impulse.hpp"
 #include "collision/discrete/threads_impulse.hpp"
@@ -39,9 +38,9 @@ template <class Real>
 constexpr std::array<Entry<Real>, 7> table = {{
     {ResolverKind::Sequential, Law::Baseline, make<Real, SequentialBaseline<Real>>},
     {ResolverKind::Sequential, Law::Impulse, make<Real, SequentialImpulse<Real>>},
-    {ResolverKind::Sequential, Law::Continuous, makeEventDriven<Real>},
+    {ResolverKind::Sequential, Law::Continuous, makeContinuousLaw<Real>},
     {ResolverKind::Threads, Law::Impulse, make<Real, ThreadsImpulse<Real>>},
-    {ResolverKind::Threads, Law::Continuous, makeEventDriven<Real>},
+    {ResolverKind::Threads, Law::Continuous, makeContinuousLaw<Real>},
     {ResolverKind::Cuda, Law::Baseline, makeCudaBaseline<Real>},
     {ResolverKind::Cuda, Law::Impulse, makeCudaImpulse<Real>},
 }};
@@ -55,13 +54,6 @@ const Entry<Real>* findEntry(Law law, ResolverKind resolver) {
 }
 
 bool needsDevice(ResolverKind resolver) { return resolver == ResolverKind::Cuda; }
-
-/// From how many moving bodies on a device is faster than any number of threads, as measured on an
-/// H100 beside 16 cores (docs/performance.md).
-constexpr std::size_t cudaPaysFrom = 10'000;
-
-/// From how many moving bodies on so many threads are worth it, measured there and on 2 cores.
-std::size_t threadsPayFrom(int threads) { return threads >= 4 ? 5'000 : 10'000; }
 
 std::unique_ptr<Engine> makeHostEngine(const SimulationConfig& config, const Vec2& worldSize,
                                        unsigned threads) {
@@ -108,18 +100,6 @@ std::unique_ptr<Engine> makeEngine(const SimulationConfig& config, const Vec2& w
     return std::make_unique<FallbackEngine>(
         [&] { return makeHostEngine(config, worldSize, threads); },
         [=] { return makeHostEngine(substitute, worldSize, threads); });
-}
-
-ResolverKind chooseResolver(const SimulationConfig& config, std::size_t movingCount) {
-    // The device is looked for last: that takes longer than many a small run.
-    if (runsOn(config.law, ResolverKind::Cuda) && runsOn(config.law, ResolverKind::Threads) &&
-        movingCount >= cudaPaysFrom && findCudaDevice().usable()) {
-        return ResolverKind::Cuda;
-    }
-    const int threads = config.threads > 0 ? config.threads : Simulation::cores();
-    const bool pays = threads > 1 && movingCount >= threadsPayFrom(threads);
-    return pays && runsOn(config.law, ResolverKind::Threads) ? ResolverKind::Threads
-                                                             : ResolverKind::Sequential;
 }
 
 }  // namespace quadrille

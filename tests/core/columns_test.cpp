@@ -6,25 +6,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include <quadrille/random.hpp>
 
+#include "shuffled.hpp"
+
 namespace quadrille {
 namespace {
-
-using Order = std::vector<std::uint32_t>;
-
-Order shuffled(std::size_t rows, Random& random) {
-    Order order(rows);
-    std::iota(order.begin(), order.end(), 0u);
-    for (std::size_t i = rows; i > 1; --i) {
-        std::swap(order[i - 1], order[static_cast<std::size_t>(random.integer(0, i - 1))]);
-    }
-    return order;
-}
 
 template <class T>
 std::vector<T> permuted(const std::vector<T>& values, const Order& order) {

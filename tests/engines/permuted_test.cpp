@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <functional>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <ostream>
 #include <string>
 #include <tuple>
@@ -29,20 +28,10 @@
 #include "core/step_times.hpp"
 #include "core/world_access.hpp"
 #include "engines/host_engine.hpp"
+#include "shuffled.hpp"
 
 namespace quadrille {
 namespace {
-
-using Order = std::vector<std::uint32_t>;
-
-Order shuffled(std::size_t rows, Random& random) {
-    Order order(rows);
-    std::iota(order.begin(), order.end(), 0u);
-    for (std::size_t i = rows; i > 1; --i) {
-        std::swap(order[i - 1], order[static_cast<std::size_t>(random.integer(0, i - 1))]);
-    }
-    return order;
-}
 
 void permute(World& world, Random& random) {
     WorldAccess::permute(world, shuffled(world.movingCount(), random),

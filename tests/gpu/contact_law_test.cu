@@ -6,21 +6,13 @@
 
 #include "collision/rules/canonical_order.hpp"
 #include "collision/rules/contact_law.hpp"
+#include "kernel_test.hpp"
 
 // The contact law and the canonical order must give the same bits on host and device: everything
 // that resolves contacts in parallel rests on that.
 
 namespace quadrille {
 namespace {
-
-void check(cudaError_t error) {
-    if (error != cudaSuccess) FAIL() << cudaGetErrorString(error);
-}
-
-bool hasDevice() {
-    int count = 0;
-    return cudaGetDeviceCount(&count) == cudaSuccess && count > 0;
-}
 
 /// A random pair, and what the law makes of it.
 template <class Real>

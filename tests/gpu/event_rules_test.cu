@@ -10,32 +10,25 @@
 #include "collision/rules/canonical_order.hpp"
 #include "collision/rules/cell_ownership.hpp"
 #include "collision/rules/contact_law.hpp"
+#include "collision/rules/discrete_motion.hpp"
 #include "collision/rules/event_order.hpp"
 #include "collision/rules/event_rules.hpp"
 #include "collision/rules/fine_grid.hpp"
 #include "collision/rules/impulse_contact.hpp"
 #include "collision/rules/leaf_rule.hpp"
-#include "collision/rules/motion.hpp"
+#include "collision/rules/mix64.hpp"
 #include "collision/rules/next_event.hpp"
 #include "collision/rules/pair_geometry.hpp"
 #include "collision/rules/paths.hpp"
 #include "collision/rules/rest_rules.hpp"
 #include "collision/rules/step_parameters.hpp"
 #include "collision/rules/trajectory.hpp"
+#include "kernel_test.hpp"
 
 // The rules of the law `continuous` must give the same bits on host and device.
 
 namespace quadrille {
 namespace {
-
-void check(cudaError_t error) {
-    if (error != cudaSuccess) FAIL() << cudaGetErrorString(error);
-}
-
-bool hasDevice() {
-    int count = 0;
-    return cudaGetDeviceCount(&count) == cudaSuccess && count > 0;
-}
 
 /// The other bodies, as a kernel names them.
 struct Others {

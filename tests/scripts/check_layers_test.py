@@ -98,6 +98,11 @@ class Planted(unittest.TestCase):
         self.assertEqual(new, {'src/collision/planted/planted.cpp:1: '
                                'is in no row of the table in scripts/check-layers'})
 
+    def test_every_row_has_a_file(self):
+        os.remove(os.path.join(self.root, 'include/quadrille/cell_coordinates.hpp'))
+        self.assertIn('scripts/check-layers:1: has a row for include/quadrille/cell_coordinates.hpp, '
+                      'which is not there', check(self.root).stdout.splitlines())
+
     def test_an_included_file_exists(self):
         self.expect('tests/core/world_test.cpp', '#include <quadrille/planted.hpp>',
                     '<quadrille/planted.hpp> is no file of the tree')

@@ -5,7 +5,7 @@
 #include "collision/continuous/event_loop_state.hpp"
 #include "collision/continuous/event_search.hpp"
 #include "collision/continuous/pushed_groups.hpp"
-#include "collision/continuous/resting_bodies.hpp"
+#include "collision/continuous/support_ends.hpp"
 #include "collision/law.hpp"
 #include "collision/rules/event_rules.hpp"
 
@@ -110,7 +110,7 @@ class EventLoop {
     EventLoopState& state_;
     EventWindow window_;
     PushedGroups<Real, Path> groups_;
-    RestingBodies<Real, Path> resting_;
+    SupportEnds<Real, Path> resting_;
     double stoppedAt_ = 0;  // s
 };
 

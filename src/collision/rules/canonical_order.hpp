@@ -6,16 +6,9 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/bodies.hpp"
+#include "collision/rules/mix64.hpp"
 
 namespace quadrille {
-
-/// The finaliser of splitmix64 (Steele, Lea & Flood 2014): every bit of the input moves half of the
-/// bits of the output.
-QUADRILLE_HD inline std::uint64_t mix64(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
 
 /// Breaks ties between contacts of the same time. A hash and not the ids themselves: ids that rise
 /// along a row of touching bodies would chain all their contacts one behind the other, which leaves

@@ -16,6 +16,7 @@
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
 #include "partition_checks.hpp"
+#include "reals.hpp"
 
 namespace quadrille {
 namespace {
@@ -61,14 +62,6 @@ class PartitionerTest : public testing::Test {
     }
 };
 
-using Reals = testing::Types<double, float>;
-
-struct RealNames {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(double) ? "Double" : "Float";
-    }
-};
 TYPED_TEST_SUITE(PartitionerTest, Reals, RealNames);
 
 TYPED_TEST(PartitionerTest, BruteForceIsCompleteAndUnique) {

@@ -15,6 +15,7 @@
 #include "collision/support.hpp"
 #include "core/world_access.hpp"
 #include "partition_checks.hpp"
+#include "reals.hpp"
 
 namespace quadrille {
 namespace {
@@ -67,14 +68,6 @@ class SkinTest : public testing::Test {
     }
 };
 
-using Reals = testing::Types<double, float>;
-
-struct RealNames {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(double) ? "Double" : "Float";
-    }
-};
 TYPED_TEST_SUITE(SkinTest, Reals, RealNames);
 
 TYPED_TEST(SkinTest, NoPairIsMissedWhileBodiesMove) {

@@ -12,6 +12,7 @@
 
 #include "collision/rules/next_event.hpp"
 #include "plain_world.hpp"
+#include "reals.hpp"
 
 namespace quadrille {
 namespace {
@@ -19,14 +20,6 @@ namespace {
 template <class Real>
 class EventRules : public testing::Test {};
 
-using Reals = testing::Types<double, float>;
-
-struct RealNames {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(double) ? "Double" : "Float";
-    }
-};
 TYPED_TEST_SUITE(EventRules, Reals, RealNames);
 
 /// Enough digits for a few roundings of numbers of about 10.

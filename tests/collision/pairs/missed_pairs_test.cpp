@@ -16,6 +16,7 @@
 #include "collision/broad/partition_checks.hpp"
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
+#include "reals.hpp"
 
 namespace quadrille {
 namespace {
@@ -157,14 +158,6 @@ class MissedPairsIn : public testing::Test {
     }
 };
 
-using Reals = testing::Types<double, float>;
-
-struct RealNames {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(double) ? "Double" : "Float";
-    }
-};
 TYPED_TEST_SUITE(MissedPairsIn, Reals, RealNames);
 
 TYPED_TEST(MissedPairsIn, RandomScenesAreCountedAsByHand) {

@@ -8,20 +8,14 @@
 
 #include <quadrille/random.hpp>
 
+#include "reals.hpp"
+
 namespace quadrille {
 namespace {
 
 template <class Real>
 class ContactLaw : public testing::Test {};
 
-using Reals = testing::Types<double, float>;
-
-struct RealNames {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(double) ? "Double" : "Float";
-    }
-};
 TYPED_TEST_SUITE(ContactLaw, Reals, RealNames);
 
 // ---- geometry

@@ -13,6 +13,7 @@
 #include <quadrille/random.hpp>
 
 #include "collision/broad/body_ranges.hpp"
+#include "reals.hpp"
 
 namespace quadrille {
 namespace {
@@ -20,14 +21,6 @@ namespace {
 template <class Real>
 class FineGridTest : public testing::Test {};
 
-using Reals = testing::Types<double, float>;
-
-struct RealNames {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(double) ? "Double" : "Float";
-    }
-};
 TYPED_TEST_SUITE(FineGridTest, Reals, RealNames);
 
 bool equal(const FineRange& range, const FineRange& expected) {

@@ -10,12 +10,12 @@ namespace quadrille {
 
 /// Lets bodies fall that rested when nothing holds them any more.
 template <class Real, class Path>
-class RestingBodies {
+class SupportEnds {
   public:
     using Search = EventSearch<Real, Path>;
 
     /// Both must outlive this.
-    RestingBodies(const Search& search, EventLoopState& state) : search_(search), state_(state) {}
+    SupportEnds(const Search& search, EventLoopState& state) : search_(search), state_(state) {}
 
     /// Carries out the end of a support. Returns whether any body falls.
     bool release(const PairEvent& event);

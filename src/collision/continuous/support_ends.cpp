@@ -1,10 +1,10 @@
-#include "collision/continuous/resting_bodies.hpp"
+#include "collision/continuous/support_ends.hpp"
 
 namespace quadrille {
 
 /// Lets a body fall unless something holds it, and notes that it has changed.
 template <class Real, class Path>
-bool RestingBodies<Real, Path>::release(std::uint32_t row, int axis, double now) {
+bool SupportEnds<Real, Path>::release(std::uint32_t row, int axis, double now) {
     const auto others = search_.neighbours()[row];
     if (!quadrille::release(search_.motion(), row, others, axis, now)) return false;
     ++search_.stamp(row);
@@ -13,7 +13,7 @@ bool RestingBodies<Real, Path>::release(std::uint32_t row, int axis, double now)
 }
 
 template <class Real, class Path>
-bool RestingBodies<Real, Path>::release(const PairEvent& event) {
+bool SupportEnds<Real, Path>::release(const PairEvent& event) {
     const int axis = event.axes == axisX ? 0 : 1;
     const bool first = release(event.a, axis, event.time);
     const bool second = !event.withStatic() && release(event.b.row(), axis, event.time);
@@ -21,7 +21,7 @@ bool RestingBodies<Real, Path>::release(const PairEvent& event) {
 }
 
 template <class Real, class Path>
-void RestingBodies<Real, Path>::releaseFromChanged(double now) {
+void SupportEnds<Real, Path>::releaseFromChanged(double now) {
     if (!state_.mayRest) return;
     for (std::size_t i = 0; i < state_.changed.size(); ++i) {
         for (int axis = 0; axis < 2; ++axis) {
@@ -35,7 +35,7 @@ void RestingBodies<Real, Path>::releaseFromChanged(double now) {
     }
 }
 
-template class RestingBodies<double, FallingPath>;
-template class RestingBodies<float, FallingPath>;
+template class SupportEnds<double, FallingPath>;
+template class SupportEnds<float, FallingPath>;
 
 }  // namespace quadrille

@@ -1,4 +1,4 @@
-#include "collision/continuous/event_driven.hpp"
+#include "collision/continuous/continuous_law.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ double speedOf(const Moving& m, std::size_t row) {
 }  // namespace
 
 template <class Real, class Path>
-EventDriven<Real, Path>::EventDriven(const StepSettings& settings, const ThreadTeam& team)
+ContinuousLaw<Real, Path>::ContinuousLaw(const StepSettings& settings, const ThreadTeam& team)
     : ContactLaw<Real>({.anchors = true, .rests = falls}),
       team_(team),
       gravityX_(settings.gravity.x()),
@@ -40,7 +40,7 @@ EventDriven<Real, Path>::EventDriven(const StepSettings& settings, const ThreadT
 }
 
 template <class Real, class Path>
-void EventDriven<Real, Path>::begin(const LawBodies<Real>& bodies, Step<Real>& step) {
+void ContinuousLaw<Real, Path>::begin(const LawBodies<Real>& bodies, Step<Real>& step) {
     records_.clear();
     if (revision_ != bodies.revision) takeOver(bodies, step.from);
 }
@@ -49,7 +49,7 @@ void EventDriven<Real, Path>::begin(const LawBodies<Real>& bodies, Step<Real>& s
 /// them. A body that is not where its anchor says, be it new, edited, or brought from another run
 /// or another time, sets out anew from where it is.
 template <class Real, class Path>
-void EventDriven<Real, Path>::takeOver(const LawBodies<Real>& bodies, double now) {
+void ContinuousLaw<Real, Path>::takeOver(const LawBodies<Real>& bodies, double now) {
     const auto& m = bodies.moving;
     const auto rows = static_cast<std::uint32_t>(m.size());
     // Rows may have moved, sizes changed: what is known is found again. Where bodies were edited,
@@ -75,7 +75,7 @@ void EventDriven<Real, Path>::takeOver(const LawBodies<Real>& bodies, double now
 }
 
 template <class Real, class Path>
-ExactMotion<Real, Path> EventDriven<Real, Path>::motionOf(const LawBodies<Real>& bodies) const {
+ExactMotion<Real, Path> ContinuousLaw<Real, Path>::motionOf(const LawBodies<Real>& bodies) const {
     return {.bodies = bodies.plain(),
             .gravityX = gravityX_,
             .gravityY = gravityY_,
@@ -84,7 +84,7 @@ ExactMotion<Real, Path> EventDriven<Real, Path>::motionOf(const LawBodies<Real>&
 
 /// Writes where all bodies are at time t. Returns whether the positions are finite.
 template <class Real, class Path>
-bool EventDriven<Real, Path>::place(const LawBodies<Real>& bodies, double t) const {
+bool ContinuousLaw<Real, Path>::place(const LawBodies<Real>& bodies, double t) const {
     constexpr Real largest = std::numeric_limits<Real>::max();
     const std::size_t rows = bodies.moving.size();
     return !team_.any(rows, &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
@@ -102,7 +102,7 @@ bool EventDriven<Real, Path>::place(const LawBodies<Real>& bodies, double t) con
 
 /// Looks at the speeds and positions of all bodies, at a time when they are up to date.
 template <class Real, class Path>
-void EventDriven<Real, Path>::survey(const LawBodies<Real>& bodies) {
+void ContinuousLaw<Real, Path>::survey(const LawBodies<Real>& bodies) {
     const auto& m = bodies.moving;
     const auto largest = [&](std::span<const Real> along, std::span<const Real> across) {
         return static_cast<double>(team_.template maximum<Real>(
@@ -149,7 +149,7 @@ void EventDriven<Real, Path>::survey(const LawBodies<Real>& bodies) {
 
 template <class Real, class Path>
 template <class Function>
-double EventDriven<Real, Path>::sumOver(std::size_t rows, Function&& function) const {
+double ContinuousLaw<Real, Path>::sumOver(std::size_t rows, Function&& function) const {
     return team_.sum(rows, &Thresholds::streamed, [&](std::size_t begin, std::size_t end) {
         double part = 0;
         for (std::size_t i = begin; i < end; ++i) part += function(i);
@@ -161,7 +161,7 @@ double EventDriven<Real, Path>::sumOver(std::size_t rows, Function&& function) c
 /// and the more pairs it shows. The prices are measured (docs/performance.md); the result does not
 /// depend on the choice.
 template <class Real, class Path>
-double EventDriven<Real, Path>::chooseLife(std::size_t rows, double now) const {
+double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now) const {
     constexpr double buildPrice = 90;    // ns a body, for cells and the walk through them
     constexpr double collectPrice = 40;  // ns a candidate pair, found, listed and searched
     constexpr double againPrice = 30;    // ns a neighbour, searched again after an event
@@ -197,8 +197,8 @@ double EventDriven<Real, Path>::chooseLife(std::size_t rows, double now) const {
 }
 
 template <class Real, class Path>
-std::optional<Reach<Real>> EventDriven<Real, Path>::reach(const LawBodies<Real>& bodies, double now,
-                                                          double to) {
+std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real>& bodies,
+                                                            double now, double to) {
     if (now < horizon_) return std::nullopt;
     const auto& m = bodies.moving;
     if (m.size() == 0) {
@@ -247,7 +247,7 @@ std::optional<Reach<Real>> EventDriven<Real, Path>::reach(const LawBodies<Real>&
 
 /// All meetings of candidates between `from` and `to`.
 template <class Real, class Path>
-void EventDriven<Real, Path>::findAll(const Search& search, double from, double to) {
+void ContinuousLaw<Real, Path>::findAll(const Search& search, double from, double to) {
     const unsigned workers = team_.workersFor(candidates_.size(), &Thresholds::tested);
     const auto findShare = [&](unsigned worker, EventQueue& queue) {
         const auto find = [&](auto pairs) { search.findAmong(pairs, from, to, queue); };
@@ -265,9 +265,9 @@ void EventDriven<Real, Path>::findAll(const Search& search, double from, double 
 }
 
 template <class Real, class Path>
-double EventDriven<Real, Path>::advance(const LawBodies<Real>& bodies,
-                                        const Partition<Real>& partition, double now,
-                                        Step<Real>& step) {
+double ContinuousLaw<Real, Path>::advance(const LawBodies<Real>& bodies,
+                                          const Partition<Real>& partition, double now,
+                                          Step<Real>& step) {
     const double done = runEvents(bodies, partition, now, step);
     step.clock.finish(Phase::Resolve);
     if (!place(bodies, done)) requireFinite(bodies.read(), team_);
@@ -278,9 +278,9 @@ double EventDriven<Real, Path>::advance(const LawBodies<Real>& bodies,
 /// Runs the events from `now` on, to the end of the step or of what the partition covers, or to an
 /// event that makes a body too fast for it. Returns the time of that.
 template <class Real, class Path>
-double EventDriven<Real, Path>::runEvents(const LawBodies<Real>& bodies,
-                                          const Partition<Real>& partition, double now,
-                                          Step<Real>& step) {
+double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
+                                            const Partition<Real>& partition, double now,
+                                            Step<Real>& step) {
     double to = std::min(step.to, horizon_);
     if (shared_) to = std::min(to, now + sharedStretch());
     const Motion motion = motionOf(bodies);
@@ -334,14 +334,14 @@ double EventDriven<Real, Path>::runEvents(const LawBodies<Real>& bodies,
 /// A stretch of time in which bodies stay so close to where they are that few concern each other,
 /// s.
 template <class Real, class Path>
-double EventDriven<Real, Path>::sharedStretch() const {
+double ContinuousLaw<Real, Path>::sharedStretch() const {
     const double size = sizeSum_ / static_cast<double>(stamps_.size());
     return size / (6 * gainOf() * fastest_);
 }
 
 /// How many bodies there are around each, from the pairs that the partition shows.
 template <class Real, class Path>
-void EventDriven<Real, Path>::noteDensity(std::size_t rows) {
+void ContinuousLaw<Real, Path>::noteDensity(std::size_t rows) {
     const double life = life_;
     const double size = sizeSum_ / static_cast<double>(rows);
     const double gain = gainOf();
@@ -353,8 +353,8 @@ void EventDriven<Real, Path>::noteDensity(std::size_t rows) {
 }
 
 template <class Real, class Path>
-bool EventDriven<Real, Path>::runShared(const LawBodies<Real>& bodies, const Search& search,
-                                        const EventWindow& window, double now, Step<Real>& step) {
+bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const Search& search,
+                                          const EventWindow& window, double now, Step<Real>& step) {
     if constexpr (!falls) {
         if (!shared_) return false;
         // Both bodies get on by the fastest's way at most; rounding grows with how far anchors lie
@@ -370,7 +370,7 @@ bool EventDriven<Real, Path>::runShared(const LawBodies<Real>& bodies, const Sea
 }
 
 template <class Real, class Path>
-std::size_t EventDriven<Real, Path>::bytes() const {
+std::size_t ContinuousLaw<Real, Path>::bytes() const {
     std::size_t sum = candidates_.bytes() + neighbours_.bytes() + events_.bytes() +
                       ownBounds_.capacity() * sizeof(double) + ownReach_.capacity() * sizeof(Real) +
                       stamps_.capacity() * sizeof(std::uint32_t) +
@@ -381,17 +381,17 @@ std::size_t EventDriven<Real, Path>::bytes() const {
 }
 
 template <class Real>
-std::unique_ptr<ContactLaw<Real>> makeEventDriven(const SimulationConfig& config,
-                                                  const ThreadTeam& team) {
+std::unique_ptr<ContactLaw<Real>> makeContinuousLaw(const SimulationConfig& config,
+                                                    const ThreadTeam& team) {
     if (config.step.gravity == Vec2(0, 0)) {
-        return std::make_unique<EventDriven<Real, StraightPath>>(config.step, team);
+        return std::make_unique<ContinuousLaw<Real, StraightPath>>(config.step, team);
     }
-    return std::make_unique<EventDriven<Real, FallingPath>>(config.step, team);
+    return std::make_unique<ContinuousLaw<Real, FallingPath>>(config.step, team);
 }
 
-template std::unique_ptr<ContactLaw<double>> makeEventDriven(const SimulationConfig&,
-                                                             const ThreadTeam&);
-template std::unique_ptr<ContactLaw<float>> makeEventDriven(const SimulationConfig&,
-                                                            const ThreadTeam&);
+template std::unique_ptr<ContactLaw<double>> makeContinuousLaw(const SimulationConfig&,
+                                                               const ThreadTeam&);
+template std::unique_ptr<ContactLaw<float>> makeContinuousLaw(const SimulationConfig&,
+                                                              const ThreadTeam&);
 
 }  // namespace quadrille

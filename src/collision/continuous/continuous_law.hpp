@@ -23,10 +23,10 @@ namespace quadrille {
 /// trajectories of its bodies only, so the state does not depend on dt; nor, since events are
 /// carried out in an order that is complete, on who finds them.
 template <class Real, class Path>
-class EventDriven final : public ContactLaw<Real> {
+class ContinuousLaw final : public ContactLaw<Real> {
   public:
     /// `team` must outlive the law.
-    EventDriven(const StepSettings& settings, const ThreadTeam& team);
+    ContinuousLaw(const StepSettings& settings, const ThreadTeam& team);
 
     void begin(const LawBodies<Real>& bodies, Step<Real>& step) override;
     std::optional<Reach<Real>> reach(const LawBodies<Real>& bodies, double now, double to) override;
@@ -96,7 +96,7 @@ class EventDriven final : public ContactLaw<Real> {
 
 /// The law for a configuration: paths fall where there is gravity.
 template <class Real>
-std::unique_ptr<ContactLaw<Real>> makeEventDriven(const SimulationConfig& config,
-                                                  const ThreadTeam& team);
+std::unique_ptr<ContactLaw<Real>> makeContinuousLaw(const SimulationConfig& config,
+                                                    const ThreadTeam& team);
 
 }  // namespace quadrille
