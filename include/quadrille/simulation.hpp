@@ -62,8 +62,9 @@ class Simulation {
     Simulation(const Simulation&) = delete;  ///< to go back or branch off, see `snapshot`
     Simulation& operator=(const Simulation&) = delete;
 
-    /// One step. Throws Error if a position stops being finite and, without
-    /// SimulationConfig::fallback, DeviceError if a device fails.
+    /// One step. Throws Error if a position stops being finite, or if it is called inside a step,
+    /// by a system or listener; and, without SimulationConfig::fallback, DeviceError if a device
+    /// fails.
     const StepReport& step();
     void run(std::uint64_t steps);
 
@@ -80,9 +81,9 @@ class Simulation {
 
     // ---- what happened in the last step
 
-    /// Its contacts in canonical order, or of `baseline` in that of the cells; kept if
-    /// SimulationConfig::keepContacts says so or a contact listener is registered, and valid until
-    /// the next step. Throws Error if they are not kept.
+    /// Its contacts in canonical order, or of `baseline` in that of the cells; kept if, at its
+    /// start, SimulationConfig::keepContacts said so or a contact listener was registered, and
+    /// valid until the next step. Throws Error if they were not kept.
     std::span<const Contact> contacts() const;
     /// Its cells; empty before the first.
     const Cells& cells() const;
@@ -110,7 +111,8 @@ class Simulation {
 
     /// Goes on from there, bit for bit as the run did that the snapshot is of, with the
     /// partitioner, resolver and listeners of this simulation. Throws NotAvailable if they cannot
-    /// run its law; then nothing changes.
+    /// run its law, DeviceError if a device is missing, and Error inside a step; then nothing
+    /// changes.
     void restore(const Snapshot& snapshot);
 
     // ---- about the run
@@ -125,7 +127,7 @@ class Simulation {
     /// Bytes that the simulation allocated beside the world: cells, contacts, work space.
     std::size_t workspaceBytes() const;
 
-    /// Continues the count of steps from a snapshot.
+    /// Continues the count of steps from a snapshot. Throws Error beyond 2^53.
     void resumeAt(std::uint64_t stepsDone);
 
   private:

@@ -3,7 +3,6 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,7 +10,6 @@
 #include <type_traits>
 #include <typeindex>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <quadrille/bodies.hpp>
@@ -204,12 +202,13 @@ class World {
     /// of many bodies are written at once this way.
     template <class Function>
     decltype(auto) editBodies(Function&& function) {
+        const Precision stored = precision();
         struct Counted {
             World& world;
             ~Counted() { world.countEdit(); }
         } const counted{*this};
-        return precision() == Precision::Double ? function(mutableBodies<double>())
-                                                : function(mutableBodies<float>());
+        return stored == Precision::Double ? function(mutableBodies<double>())
+                                           : function(mutableBodies<float>());
     }
 
     void reserveBodies(std::size_t moving);

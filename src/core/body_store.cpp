@@ -1,31 +1,21 @@
 #include "core/body_store.hpp"
 
-#include <cmath>
+#include <atomic>
 #include <string>
+
+#include "core/fits.hpp"
 
 namespace quadrille {
 
 namespace {
 
-template <class Real>
-bool fits(double value, bool positive) {
-    const auto result = static_cast<Real>(value);
-    return std::isfinite(result) && (!positive || result > 0);
-}
-
-/// Rounds to Real; a value that overflows or vanishes would silently change the body.
+/// Rounds to Real.
 template <class Real>
 Real toReal(double value, ColumnInfo info) {
     if (!fits<Real>(value, info.positive)) {
         throw Error(std::string(info.name) + " does not fit the precision of the world");
     }
     return static_cast<Real>(value);
-}
-
-template <class Real>
-Anchor<Real> unknownAnchor() {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    return {0, 0, 0, 0, unknown, unknown};
 }
 
 /// How a column of one precision becomes one of the other.
@@ -71,6 +61,11 @@ BodyStore::Columns<To> converted(const BodyStore::Columns<From>& from) {
 }
 
 }  // namespace
+
+std::uint64_t BodyStore::nextRevision() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
 
 std::size_t BodyStore::movingCount() const {
     return std::visit([](const auto& columns) { return columns.moving.size(); }, columns_);
@@ -120,13 +115,14 @@ MutableBodyView<Real> BodyStore::mutableView() {
 }
 
 template <class Real>
-LawBodies<Real> BodyStore::advance(KeptColumns kept) {
+LawBodies<Real> BodyStore::advance(KeptColumns kept, const Physics& physics) {
     bringNewest();
     auto& m = of<Real>().moving;
-    m.anchors.keep(kept.anchors, m.size(), unknownAnchor<Real>());
-    m.rests.keep(kept.rests, m.size(), 0);
-    const bool wasEdited = edited();
+    m.anchors.keep(kept.anchors, m.size());
+    m.rests.keep(kept.rests, m.size());
+    const bool wasEdited = edited() || physics != physics_;
     advanced_ = revision_;
+    physics_ = physics;
     return {mutableView<Real>(), m.anchors.view(), m.rests.view(), wasEdited};
 }
 
@@ -312,7 +308,7 @@ std::size_t BodyStore::bytes() const {
 #define QUADRILLE_INSTANTIATE(Real)                                \
     template BodyView<Real> BodyStore::read<Real>() const;         \
     template MutableBodyView<Real> BodyStore::mutableView<Real>(); \
-    template LawBodies<Real> BodyStore::advance<Real>(KeptColumns);
+    template LawBodies<Real> BodyStore::advance<Real>(KeptColumns, const Physics&);
 QUADRILLE_INSTANTIATE(double)
 QUADRILLE_INSTANTIATE(float)
 

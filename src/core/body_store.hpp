@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <variant>
@@ -73,6 +72,19 @@ struct StaticColumns {
     std::size_t size() const { return x.size(); }
 };
 
+/// What, beside the bodies, decides what becomes of them.
+struct Physics {
+    Law law = Law::Impulse;
+    Vec2 gravity{0, 0};  ///< px/s^2
+    double restitution = 1;
+
+    bool operator==(const Physics&) const = default;
+};
+
+inline Physics physicsOf(Law law, const StepSettings& step) {
+    return {law, step.gravity, step.restitution};
+}
+
 class BodyStore;
 
 /// Who holds a newer state than the store does: a device.
@@ -129,18 +141,17 @@ class BodyStore {
     }
 
     /// For an engine: the bodies to be advanced, with the columns that its law keeps. A new row of
-    /// such a column is unknown: an anchor of time NaN, a body that does not rest.
+    /// such a column is unknown: an anchor of time NaN, a body that does not rest. Where the
+    /// physics are others than last time, it is as if all bodies had been edited.
     template <class Real>
-    LawBodies<Real> advance(KeptColumns kept);
+    LawBodies<Real> advance(KeptColumns kept, const Physics& physics = {});
 
     /// From here on the mirror has the newest state, until somebody asks for it; null to forget a
     /// mirror whose state is lost or not wanted.
     void newestIs(BodyMirror* mirror) { mirror_ = mirror; }
 
+    /// Another one after each edit, and never that of another store.
     std::uint64_t revision() const { return revision_; }
-    /// To be called where the law's surroundings change under the bodies, gravity say: it then
-    /// looks at all of them again.
-    void countEdit() { ++revision_; }
 
     // ---- rows
 
@@ -185,11 +196,14 @@ class BodyStore {
     }
     /// Whether there were edits since a law advanced the bodies last.
     bool edited() const { return revision_ != advanced_; }
-    void replace(AnyColumns columns, bool edited) {
+    /// Under which a law advanced them last.
+    const Physics& physics() const { return physics_; }
+    void replace(AnyColumns columns, bool edited, const Physics& physics) {
         mirror_ = nullptr;
         columns_ = std::move(columns);
         countEdit();
         if (!edited) advanced_ = revision_;
+        physics_ = physics;
     }
 
     /// Allocated for columns.
@@ -216,9 +230,13 @@ class BodyStore {
         if (mirror_ == nullptr) return;
         std::exchange(mirror_, nullptr)->fetch(const_cast<BodyStore&>(*this));
     }
+    void countEdit() { revision_ = nextRevision(); }
+    static std::uint64_t nextRevision();
+
     AnyColumns columns_;
-    std::uint64_t revision_ = 1;
+    std::uint64_t revision_ = nextRevision();
     std::uint64_t advanced_ = 0;  // the revision that a law knows
+    Physics physics_;             // that it knows
     mutable BodyMirror* mirror_ = nullptr;
 };
 

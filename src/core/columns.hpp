@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <quadrille/body_ref.hpp>
+#include <quadrille/creation_ranks.hpp>
 #include <quadrille/detail/column.hpp>
 
 namespace quadrille {
@@ -92,29 +94,28 @@ class Column {
     std::vector<T> values_;
 };
 
-/// A value for each row, or nothing at all.
+/// A value for each row, at first T{}, or nothing at all.
 template <class T>
 class OptionalColumn {
   public:
     using Value = T;
 
-    /// Begins to keep the column, with `initial` in every row, or stops.
-    void keep(bool kept, std::size_t rows, T initial) {
+    /// Begins to keep the column, or stops.
+    void keep(bool kept, std::size_t rows) {
         if (kept == kept_) return;
         kept_ = kept;
-        initial_ = initial;
-        values_ = std::vector<T>(kept ? rows : 0, initial);
+        values_ = std::vector<T>(kept ? rows : 0);
     }
     bool kept() const { return kept_; }
 
     void grow() {
-        if (kept_) values_.push_back(initial_);
+        if (kept_) values_.emplace_back();
     }
     void move(std::size_t from, std::size_t to) {
         if (kept_) values_[to] = values_[from];
     }
     void shrink(std::size_t rows) {
-        if (kept_) values_.resize(rows, initial_);
+        if (kept_) values_.resize(rows);
     }
     void permute(std::span<const std::uint32_t> order) { detail::permute(values_, order); }
     void reserve(std::size_t rows) {
@@ -125,15 +126,13 @@ class OptionalColumn {
     std::span<T> view() { return values_; }
 
     const std::vector<T>& stored() const { return values_; }
-    void store(std::vector<T> values, T initial) {
+    void store(std::vector<T> values) {
         kept_ = true;
-        initial_ = initial;
         values_ = std::move(values);
     }
 
   private:
     bool kept_ = false;
-    T initial_{};
     std::vector<T> values_;
 };
 
@@ -141,9 +140,14 @@ class OptionalColumn {
 class CreationColumn {
   public:
     using Value = std::uint32_t;
+    /// A BodyRef holds a row, and an event's order a number, in as many bits.
+    static constexpr std::uint32_t mostNumbers = BodyRef::mostRows;
 
     void grow() {
-        if (!numbers_.empty()) numbers_.push_back(next_);
+        if (!numbers_.empty()) {
+            if (next_ >= mostNumbers) renumber();
+            numbers_.push_back(next_);
+        }
         ++next_;
         ++size_;
     }
@@ -182,6 +186,13 @@ class CreationColumn {
     const std::vector<std::uint32_t>& stored() const { return numbers_; }
 
   private:
+    /// Closes the gaps that rows which are gone have left. The order stays.
+    void renumber() {
+        const CreationRanks ranks(view(), size_);
+        for (std::size_t i = 0; i < size_; ++i) numbers_[i] = static_cast<std::uint32_t>(ranks[i]);
+        next_ = static_cast<std::uint32_t>(size_);
+    }
+
     std::vector<std::uint32_t> numbers_;
     std::size_t size_ = 0;
     std::uint32_t next_ = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ namespace {
 
 /// More than any machine has cores; fewer than what makes an operating system give up.
 constexpr int mostThreads = 1024;
+
+constexpr const char* tooManySteps =
+    "simulation: beyond 2^53 steps, times are no longer told apart";
 
 void validate(const SimulationConfig& config) {
     if (!std::isfinite(config.step.dt) || !(config.step.dt > 0)) {
@@ -106,6 +110,8 @@ struct Simulation::Impl {
     Listeners<std::function<void(const Contact&)>> contactListeners;
     Listeners<std::function<void(const World&, const StepReport&)>> observers;
     std::vector<Contact> contacts;
+    std::optional<bool> lastKept;  // whether the last step kept contacts
+    bool busy = false;             // inside a step
 
     Impl(World w, const SimulationConfig& c)
         : world(std::move(w)),
@@ -124,6 +130,13 @@ struct Simulation::Impl {
         if (!engine->failure().empty()) resolverFailure = engine->failure();
     }
     bool keepsContacts() const { return config.keepContacts || !contactListeners.empty(); }
+
+    /// A system or listener that stepped or went back would do so under the step that called it.
+    void requireIdle(const char* what) const {
+        if (busy) {
+            throw Error(std::string("simulation: ") + what + " cannot be called inside a step");
+        }
+    }
 };
 
 Simulation::Simulation(World world, SimulationConfig config) {
@@ -137,6 +150,12 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const StepReport& Simulation::step() {
     Impl& s = *impl_;
+    s.requireIdle("step");
+    s.busy = true;
+    struct Idle {
+        Impl& s;
+        ~Idle() { s.busy = false; }
+    } const idle{s};
     s.world.flush();
     s.systems.call(s.world, s.config.step.dt);
     s.systems.forgetRemoved();
@@ -149,6 +168,7 @@ const StepReport& Simulation::step() {
                       .keepContacts = s.keepsContacts()};
     s.report = StepReport{.step = window.number};
     s.contacts.clear();
+    s.lastKept = window.keepContacts;
     s.engine->step(WorldAccess::store(s.world), window, s.report);
     ++s.stepsDone;
     s.noteFallback();
@@ -215,7 +235,7 @@ std::uint64_t Simulation::stepsDone() const { return impl_->stepsDone; }
 double Simulation::time() const { return StepTimes(impl_->config.step.dt).at(impl_->stepsDone); }
 
 std::span<const Contact> Simulation::contacts() const {
-    if (!impl_->keepsContacts()) {
+    if (!impl_->lastKept.value_or(impl_->keepsContacts())) {
         throw Error(
             "simulation: contacts are not kept; SimulationConfig::keepContacts asks for it");
     }
@@ -252,13 +272,9 @@ void Simulation::reconfigure(const SimulationConfig& config) {
         throw Error("simulation: the precision cannot change during a run");
     }
     const SimulationConfig next = chosen(config, s.world);
-    const StepSettings& before = s.config.step;
-    const bool otherPhysics = config.law != s.config.law || config.step.gravity != before.gravity ||
-                              config.step.restitution != before.restitution;
     std::unique_ptr<Engine> engine = makeEngine(next, s.world.config().size);
     s.config = next;
     s.engine = std::move(engine);
-    if (otherPhysics) WorldAccess::store(s.world).countEdit();
     if (next.resolver != ResolverKind::Sequential) s.resolverFailure.clear();
     s.noteFallback();
 }
@@ -275,6 +291,8 @@ Snapshot Simulation::snapshot() const {
 
 void Simulation::restore(const Snapshot& snapshot) {
     Impl& s = *impl_;
+    s.requireIdle("restore");
+    if (snapshot.stepsDone > StepTimes::mostSteps) throw Error(tooManySteps);
     SimulationConfig config = s.config;
     config.law = snapshot.law;
     config.step = snapshot.step;
@@ -287,6 +305,7 @@ void Simulation::restore(const Snapshot& snapshot) {
     s.engine = std::move(engine);
     s.stepsDone = snapshot.stepsDone;
     s.contacts.clear();
+    s.lastKept.reset();
     s.noteFallback();
 }
 
@@ -315,6 +334,9 @@ std::size_t Simulation::workspaceBytes() const {
     return impl_->engine->bytes() + impl_->contacts.capacity() * sizeof(Contact);
 }
 
-void Simulation::resumeAt(std::uint64_t stepsDone) { impl_->stepsDone = stepsDone; }
+void Simulation::resumeAt(std::uint64_t stepsDone) {
+    if (stepsDone > StepTimes::mostSteps) throw Error(tooManySteps);
+    impl_->stepsDone = stepsDone;
+}
 
 }  // namespace quadrille

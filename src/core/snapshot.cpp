@@ -11,6 +11,7 @@
 #include <quadrille/snapshot.hpp>
 
 #include "core/snapshot_stream.hpp"
+#include "core/step_times.hpp"
 #include "core/world_access.hpp"
 
 namespace quadrille {
@@ -99,7 +100,7 @@ void write(SnapshotWriter& out, const OptionalColumn<T>& column) {
 }
 template <class T>
 void read(SnapshotReader& in, OptionalColumn<T>& column, std::size_t) {
-    if (in.number<std::uint8_t>() != 0) column.store(in.numbers<T>(), T{});
+    if (in.number<std::uint8_t>() != 0) column.store(in.numbers<T>());
 }
 
 void write(SnapshotWriter& out, const CreationColumn& column) {
@@ -108,6 +109,7 @@ void write(SnapshotWriter& out, const CreationColumn& column) {
 }
 void read(SnapshotReader& in, CreationColumn& column, std::size_t rows) {
     const auto next = in.number<std::uint32_t>();
+    if (next > CreationColumn::mostNumbers) in.fail("has a creation number that is too large");
     column.store(in.numbers<std::uint32_t>(), rows, next);
 }
 
@@ -189,7 +191,7 @@ void write(SnapshotWriter& out, const World& world) {
     writePools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(out, world);
 }
 
-World readWorld(SnapshotReader& in) {
+World readWorld(SnapshotReader& in, const Physics& physics) {
     WorldConfig config;
     config.size = readVec2(in);
     config.seed = in.number<std::uint64_t>();
@@ -231,7 +233,7 @@ World readWorld(SnapshotReader& in) {
         },
         columns);
     const bool edited = in.number<std::uint8_t>() != 0;
-    WorldAccess::store(world).replace(std::move(columns), edited);
+    WorldAccess::store(world).replace(std::move(columns), edited, physics);
     readPools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(in, world);
     if (const auto findings = world.validate(); !findings.empty())
         in.fail("is unsound: " + findings[0]);
@@ -288,9 +290,10 @@ Snapshot loadSnapshot(const std::filesystem::path& file) {
     std::string scene = in.text();
     const auto seed = in.number<std::uint64_t>();
     const auto stepsDone = in.number<std::uint64_t>();
+    if (stepsDone > StepTimes::mostSteps) in.fail("has a number of steps that is too large");
     const Law law = readLaw(in);
     const StepSettings step = readStep(in);
-    World world = readWorld(in);
+    World world = readWorld(in, physicsOf(law, step));
     if (in.left() != 0) in.fail("has data after its end");
     return {.scene = std::move(scene),
             .seed = seed,

@@ -11,6 +11,9 @@ namespace quadrille {
 /// every moment that they share.
 class StepTimes {
   public:
+    /// Beyond it, a double does not tell one number from the next.
+    static constexpr std::uint64_t mostSteps = std::uint64_t{1} << 53;
+
     explicit StepTimes(double dt) : dt_(dt) {
         const double perSecond = std::round(1 / dt);
         if (perSecond >= 1 && perSecond < 0x1p52 && 1 / perSecond == dt) perSecond_ = perSecond;

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -17,8 +20,8 @@ constexpr std::size_t mostFindings = 20;
 class Findings {
   public:
     void add(std::string finding) {
-        if (list_.size() < mostFindings) list_.push_back(std::move(finding));
-        if (list_.size() == mostFindings) list_.emplace_back("and more");
+        if (full()) return;
+        list_.push_back(list_.size() < mostFindings ? std::move(finding) : "and more");
     }
     bool full() const { return list_.size() > mostFindings; }
     std::vector<std::string> take() { return std::move(list_); }
@@ -112,15 +115,45 @@ void checkRows(const World& world, const Set& set, const char* kind, RefOf&& ref
     if (set.created.view().isRowOrder() && set.created.next() != rows) {
         findings.add(std::string("the next creation number of the ") + kind + " bodies is wrong");
     }
-    std::vector<bool> seen(set.created.next(), false);
-    for (const std::uint32_t number : set.created.stored()) {
-        if (number >= seen.size() || seen[number]) {
-            findings.add(std::string("the creation numbers of the ") + kind +
-                         " bodies are not all different");
-            return;
-        }
-        seen[number] = true;
+    std::vector<std::uint32_t> numbers = set.created.stored();
+    std::sort(numbers.begin(), numbers.end());
+    if (std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end()) {
+        findings.add(std::string("the creation numbers of the ") + kind +
+                     " bodies are not all different");
     }
+    if (!numbers.empty() && numbers.back() >= set.created.next()) {
+        findings.add(std::string("the next creation number of the ") + kind + " bodies is wrong");
+    }
+}
+
+void checkPools(const World& world, Findings& findings) {
+    const auto t = WorldAccess::tables(world);
+    const std::size_t count = std::min({t.generations.size(), t.dead.size(), t.slots.size()});
+    std::vector<bool> free(count, false);
+    for (const std::uint32_t index : t.free) {
+        if (index < count) free[index] = true;
+    }
+    WorldAccess::forEachPool(world, [&](const PoolBase& pool) {
+        for (const Entity entity : pool.entities()) {
+            if (entity.index >= count || free[entity.index] ||
+                t.generations[entity.index] != entity.generation) {
+                findings.add("a component of " + entityName(entity.index) +
+                             ", which does not exist");
+            }
+        }
+    });
+    const auto checkBeside = [&]<class C>() {
+        const auto* pool = WorldAccess::findPool<C>(world);
+        if (pool == nullptr) return;
+        for (const Entity entity : pool->entities()) {
+            if (entity.index < count && t.slots[entity.index] != BodyRef{}) {
+                findings.add(entityName(entity.index) + " has a component twice");
+            }
+        }
+    };
+    checkBeside.template operator()<Transform>();
+    checkBeside.template operator()<BoxCollider>();
+    checkBeside.template operator()<PhysicsBody>();
 }
 
 }  // namespace
@@ -146,15 +179,7 @@ std::vector<std::string> World::validate() const {
             }
         },
         store().columns());
-    WorldAccess::forEachPool(*this, [&](const PoolBase& pool) {
-        for (const Entity entity : pool.entities()) {
-            if (entity.index >= generations_.size() ||
-                generations_[entity.index] != entity.generation) {
-                findings.add("a component of " + entityName(entity.index) +
-                             ", which does not exist");
-            }
-        }
-    });
+    checkPools(*this, findings);
     return findings.take();
 }
 

@@ -5,6 +5,7 @@
 #include <quadrille/world.hpp>
 
 #include "core/body_store.hpp"
+#include "core/fits.hpp"
 
 namespace quadrille {
 
@@ -14,12 +15,6 @@ std::string describe(Entity entity) { return "entity " + std::to_string(entity.i
 
 void requireFinite(Entity entity, const char* what, const Vec2& value) {
     if (!value.allFinite()) throw Error(describe(entity) + ": " + what + " is not finite");
-}
-
-template <class Real>
-bool fits(double value, bool positive) {
-    const auto result = static_cast<Real>(value);
-    return std::isfinite(result) && (!positive || result > 0);
 }
 
 void requireFits(Entity entity, const char* what, double value, Precision precision,
@@ -59,7 +54,7 @@ World World::clone() const {
     copy.free_ = free_;
     copy.condemned_ = condemned_;
     copy.alive_ = alive_;
-    copy.store().replace(store().columns(), store().edited());
+    copy.store().replace(store().columns(), store().edited(), store().physics());
     for (const auto& [key, pool] : pools_) copy.pools_.emplace_back(key, pool->clone());
     return copy;
 }

@@ -33,7 +33,8 @@ HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSi
 
 template <class Real>
 void HostEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport& report) {
-    const LawBodies<Real> bodies = store.advance<Real>(law_->kept());
+    const LawBodies<Real> bodies =
+        store.advance<Real>(law_->kept(), physicsOf(config_.law, config_.step));
     PhaseClock clock(report, config_.profile);
     const bool audited = missedPairs_ && missedPairs_->picks(window.number);
     Step<Real> step{.parameters = parametersOf<Real>(config_.step, window.from),

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <string>
 #include <vector>
 
 #include <quadrille/state_hash.hpp>
@@ -65,6 +66,47 @@ TEST(Continuous, GoesOnFromASnapshotBitForBit) {
         second.resumeAt(snapshot.stepsDone);
         second.run(250);
         EXPECT_EQ(stateHash(second.world()), stateHash(whole.world()));
+    }
+}
+
+// A step goes on in time whatever the speeds are, or says that positions are no longer numbers.
+TEST(Continuous, StepsEndWhateverTheSpeedsAre) {
+    for (const double speed : {1e6, 1e30, 1e100, 1e154, 1e300, 1e308}) {
+        for (const ResolverKind resolver : {ResolverKind::Sequential, ResolverKind::Threads}) {
+            for (const int count : {2, 60}) {
+                SCOPED_TRACE(std::to_string(count) + " bodies at " + std::to_string(speed));
+                std::vector<Body> bodies;
+                for (int i = 0; i < count; ++i) {
+                    const double sign = i % 2 == 0 ? 1 : -1;
+                    bodies.push_back({{3.0 * i, 0.5 * (i % 3)}, {sign * speed, -sign * speed / 3}});
+                }
+                World world;
+                for (const Body& body : bodies) {
+                    world.add(world.create(), Transform{body.position}, BoxCollider{body.size},
+                              PhysicsBody{.velocity = body.velocity});
+                }
+                Simulation sim(std::move(world), {.law = Law::Continuous,
+                                                  .resolver = resolver,
+                                                  .threads = 2,
+                                                  .step = {.dt = 1}});
+                const double before = kineticEnergy(sim.world());
+                try {
+                    sim.run(3);
+                    EXPECT_EQ(kineticEnergy(sim.world()), before);
+                } catch (const Error& error) {
+                    EXPECT_NE(std::string(error.what()).find("no longer finite"), std::string::npos)
+                        << error.what();
+                }
+            }
+        }
+    }
+}
+
+TEST(Continuous, StepsOfNothingThatMovesEndHoweverLongTheyAre) {
+    for (const double dt : {1e-9, 1.0, 1e9, 1e300}) {
+        Simulation sim = simulate({{{0, 0}, {0, 0}, {1, 50}, 1, true}}, dt);
+        sim.run(2);
+        EXPECT_EQ(sim.stepsDone(), 2u);
     }
 }
 

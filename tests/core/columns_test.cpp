@@ -152,25 +152,34 @@ TEST(OptionalColumn, HoldsNothingUntilItIsKept) {
     EXPECT_EQ(column.bytes(), 0u);
 }
 
+struct Seven {
+    int value = 7;
+    bool operator==(const Seven&) const = default;
+};
+
 TEST(OptionalColumn, BeginsWithTheInitialValueInEveryRowOldOrNew) {
-    OptionalColumn<int> column;
-    column.keep(true, 3, 7);
-    EXPECT_EQ(column.stored(), (std::vector<int>{7, 7, 7}));
-    column.view()[1] = 1;
-    column.keep(true, 3, 9);  // is kept already: nothing is lost
-    EXPECT_EQ(column.stored(), (std::vector<int>{7, 1, 7}));
+    using Sevens = std::vector<Seven>;
+    OptionalColumn<Seven> column;
+    column.keep(true, 3);
+    EXPECT_EQ(column.stored(), (Sevens{{7}, {7}, {7}}));
+    column.view()[1] = {1};
+    column.keep(true, 3);  // is kept already: nothing is lost
+    EXPECT_EQ(column.stored(), (Sevens{{7}, {1}, {7}}));
     column.grow();
-    EXPECT_EQ(column.stored(), (std::vector<int>{7, 1, 7, 7}));
+    EXPECT_EQ(column.stored(), (Sevens{{7}, {1}, {7}, {7}}));
     column.permute(Order{1, 0, 3, 2});
-    EXPECT_EQ(column.stored(), (std::vector<int>{1, 7, 7, 7}));
+    EXPECT_EQ(column.stored(), (Sevens{{1}, {7}, {7}, {7}}));
     column.move(0, 2);
     column.shrink(3);
-    EXPECT_EQ(column.stored(), (std::vector<int>{1, 7, 1}));
-    column.keep(false, 3, 0);
+    EXPECT_EQ(column.stored(), (Sevens{{1}, {7}, {1}}));
+    column.keep(false, 3);
     EXPECT_TRUE(column.stored().empty());
     EXPECT_EQ(column.bytes(), 0u);
-    column.keep(true, 2, 5);
-    EXPECT_EQ(column.stored(), (std::vector<int>{5, 5})) << "what was kept before is forgotten";
+    column.keep(true, 2);
+    EXPECT_EQ(column.stored(), (Sevens{{7}, {7}})) << "what was kept before is forgotten";
+    column.store({{2}});
+    column.grow();
+    EXPECT_EQ(column.stored(), (Sevens{{2}, {7}})) << "as a snapshot brings it";
 }
 
 // ---- CreationColumn
@@ -225,6 +234,14 @@ TEST(CreationColumn, ForgetsTheNumbersWhenRowsLieInOrderAgain) {
     column.grow();
     EXPECT_EQ(column[4], 4u);
     EXPECT_EQ(column.next(), 5u);
+}
+
+TEST(CreationColumn, CountsAgainFromTheRowsWhenNumbersRunOut) {
+    CreationColumn column;
+    column.store({7, 2, CreationColumn::mostNumbers - 1}, 3, CreationColumn::mostNumbers);
+    column.grow();
+    EXPECT_EQ(numbersOf(column), (Order{1, 0, 2, 3}));
+    EXPECT_EQ(column.next(), 4u);
 }
 
 TEST(CreationColumn, AgreesWithTheListOfAllCreatedUnderRandomUse) {

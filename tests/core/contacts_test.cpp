@@ -240,6 +240,19 @@ TEST(KeptContacts, MustBeAskedFor) {
     EXPECT_GT(heard.contacts().size(), 0u);
 }
 
+TEST(KeptContacts, AreThereIfTheLastStepKeptThem) {
+    Simulation sim(crowd(), {});
+    Subscription subscription = sim.onContact([](const Contact&) {});
+    sim.step();
+    subscription.remove();
+    EXPECT_GT(sim.contacts().size(), 0u) << "of the step that kept them";
+    sim.step();
+    sim.onContact([](const Contact&) {});
+    EXPECT_THROW(sim.contacts(), Error) << "the listener came too late for this step";
+    sim.step();
+    EXPECT_GT(sim.contacts().size(), 0u);
+}
+
 TEST(KeptContacts, DoNotChangeTheRun) {
     for (const Law law : {Law::Baseline, Law::Impulse, Law::Continuous}) {
         Simulation kept(crowd(), {.law = law, .keepContacts = true});

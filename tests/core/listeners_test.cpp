@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <quadrille/simulation.hpp>
+#include <quadrille/snapshot.hpp>
 
 #include "support.hpp"
 
@@ -131,6 +132,34 @@ TEST(Subscription, AListenerMayAddAnother) {
     const auto contacts = static_cast<int>(sim.step().contacts);
     ASSERT_GE(contacts, 2);
     EXPECT_EQ(added, 100 * contacts) << "the new ones hear of the contact that is under way, too";
+}
+
+TEST(Reentry, IsRefusedAndTheStepGoesOn) {
+    Simulation sim = touching();
+    const Snapshot start = sim.snapshot();
+    int refused = 0;
+    const auto tryBoth = [&] {
+        EXPECT_THROW(sim.step(), Error);
+        EXPECT_THROW(sim.run(2), Error);
+        EXPECT_THROW(sim.restore(start), Error);
+        ++refused;
+    };
+    sim.addSystem([&](World&, double) { tryBoth(); });
+    sim.onContact([&](const Contact&) { tryBoth(); });
+    sim.onStep([&](const World&, const StepReport&) { tryBoth(); });
+    const auto contacts = static_cast<int>(sim.step().contacts);
+    ASSERT_GE(contacts, 2);
+    EXPECT_EQ(refused, contacts + 2);
+    EXPECT_EQ(sim.stepsDone(), 1u);
+    EXPECT_NO_THROW(sim.restore(start));
+}
+
+TEST(Reentry, IsPossibleAgainAfterAListenerThrew) {
+    Simulation sim = touching();
+    Subscription thrower = sim.addSystem([](World&, double) { throw Error("no"); });
+    EXPECT_THROW(sim.step(), Error);
+    thrower.remove();
+    EXPECT_NO_THROW(sim.step());
 }
 
 TEST(Subscription, WhatAListenerHeldIsSetFreeOnceItIsRemoved) {

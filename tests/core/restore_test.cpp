@@ -267,5 +267,33 @@ TEST(EditBodies, IsSeenByTheLawContinuous) {
     }
 }
 
+// A body that rests on nothing must not stay in the air because it once lay on something under
+// another gravity.
+TEST(AnotherSimulation, OfTheSameWorldLooksAtWhatRestsAgain) {
+    World world;
+    makeBody(world, {0, 0}, {.isStatic = true}, {100, 2});
+    const Entity box = makeBody(world, {0, 2}, {}, {2, 2});
+    const SimulationConfig down{.law = Law::Continuous,
+                                .step = {.gravity = {0, -100}, .restitution = 0}};
+    Simulation sim(std::move(world), down);
+    sim.run(60);
+    ASSERT_EQ(sim.world().get<Transform>(box).position.y(), 2) << "it rests on the floor";
+    SimulationConfig up = down;
+    up.step.gravity = {0, 100};
+    Simulation other(sim.world().clone(), up);
+    other.run(60);
+    EXPECT_NEAR(other.world().get<Transform>(box).position.y(), 2 + 50, 1e-9);
+}
+
+TEST(StepCount, ThatTimesCannotTellApartIsRefused) {
+    Simulation sim(crowd(), {});
+    const std::uint64_t most = std::uint64_t{1} << 53;
+    EXPECT_NO_THROW(sim.resumeAt(most));
+    EXPECT_THROW(sim.resumeAt(most + 1), Error);
+    Snapshot snapshot = sim.snapshot();
+    snapshot.stepsDone = most + 1;
+    EXPECT_THROW(sim.restore(snapshot), Error);
+}
+
 }  // namespace
 }  // namespace quadrille

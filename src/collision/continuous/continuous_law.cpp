@@ -158,10 +158,10 @@ double ContinuousLaw<Real, Path>::sumOver(std::size_t rows, Function&& function)
 }
 
 /// For how long the next partition is to cover the bodies, s: the longer, the seldomer it is built,
-/// and the more pairs it shows. The prices are measured (docs/performance.md); the result does not
-/// depend on the choice.
+/// and the more pairs it shows. `rest` is what is left of the step. The prices are measured
+/// (docs/performance.md); the result does not depend on the choice.
 template <class Real, class Path>
-double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now) const {
+double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now, double rest) const {
     constexpr double buildPrice = 90;    // ns a body, for cells and the walk through them
     constexpr double collectPrice = 40;  // ns a candidate pair, found, listed and searched
     constexpr double againPrice = 30;    // ns a neighbour, searched again after an event
@@ -188,6 +188,8 @@ double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now) const
     const double typical = gain * speedSum_ / count;
     const double fall = gravityNow_ > 0 ? std::sqrt(0.02 * size / (gain * gravityNow_)) : longest;
     double best = std::min({longest, fall, typical > 0 ? 0.01 * size / typical : longest});
+    // Speeds near the largest number would make it so short that time stands still.
+    if (!(best >= 1e-5 * rest)) return rest;
     // The first partitions show how crowded it is, step by step: pairs grow with the square.
     const double most = life_ > 0 ? std::min(4 * life_, longest) : best;
     for (double life = best; life < most; life *= 1.25) {
@@ -202,14 +204,12 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     if (now < horizon_) return std::nullopt;
     const auto& m = bodies.moving;
     if (m.size() == 0) {
-        horizon_ = now + 1;
+        horizon_ = to;
         return Reach<Real>{};
     }
     uniformMass_ = m.mass.uniform();
     survey(bodies);
-    life_ = chooseLife(m.size(), now);
-    // Speeds near the largest number would make it so short that time stands still.
-    if (!(life_ >= 1e-5 * (to - now))) life_ = to - now;
+    life_ = chooseLife(m.size(), now, to - now);
     const double life = life_;
     horizon_ = now + life;
     partitionTime_ = now;
@@ -282,7 +282,10 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
                                             const Partition<Real>& partition, double now,
                                             Step<Real>& step) {
     double to = std::min(step.to, horizon_);
-    if (shared_) to = std::min(to, now + sharedStretch());
+    // Threads share out the events of a stretch. Many stretches a step cost more than they bring.
+    const double stretch = shared_ ? sharedStretch() : 0;
+    const bool shares = stretch >= (step.to - now) / 16;
+    if (shares) to = std::min(to, now + stretch);
     const Motion motion = motionOf(bodies);
     const Search search(motion, neighbours_, stamps_);
     if (candidates_.update(bodies.read(), partition)) {
@@ -305,13 +308,12 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     loop.releaseFromChanged(now);
     loop.findForChanged(now, neighboursOf);
     const std::uint64_t before = step.counts.contacts;
-    if (runShared(bodies, search, window, now, step)) {
+    if (shares && runShared(bodies, search, window, now, step)) {
         eventsSince_ += step.counts.contacts - before;
         return to;
     }
     loop.prefetch();
-    const std::uint64_t most =
-        step.counts.contacts + Loop::mostEventsPerBody * (bodies.moving.size() + 1);
+    const std::uint64_t most = Loop::mostEventsPerBody * (bodies.moving.size() + 1);
     const auto count = [&](const PairEvent&) {
         if (++step.counts.contacts > most) {
             throw Error("the law 'continuous' found more than " +

@@ -48,7 +48,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     void survey(const LawBodies<Real>& bodies);
     template <class Function>
     double sumOver(std::size_t rows, Function&& function) const;
-    double chooseLife(std::size_t rows, double now) const;
+    double chooseLife(std::size_t rows, double now, double rest) const;
     void noteDensity(std::size_t rows);
     double sharedStretch() const;
     double gravityAlong(int axis) const { return axis == 0 ? gravityX_ : gravityY_; }

@@ -27,7 +27,7 @@ class EventLoop {
     using Motion = typename Search::Motion;
 
     /// Far more events per body and step than any scene has; a loop without progress ends here.
-    static constexpr std::uint64_t mostEventsPerBody = 100'000;
+    static constexpr std::uint64_t mostEventsPerBody = 1'000'000;
 
     /// All must outlive this.
     EventLoop(const Search& search, EventLoopState& state, const EventWindow& window)

@@ -26,13 +26,23 @@ void SequentialImpulse<Real>::resolve(const LawBodies<Real>& view, const Partiti
     }
 
     step.counts.contacts += contacts_.size();
-    for (const PendingContact<Real>& c : contacts_) {
-        const ContactOutcome<Real> outcome = resolveContact(bodies, c, step.parameters);
-        step.counts.collisions += outcome.collided();
-        if (step.keepContacts) {
-            records_.push_back(makeRecord(ResolvedContact<Real>{c, outcome}, step.from));
+    std::uint64_t collisions = 0;
+    const auto resolveAll = [&](auto&& keep) {
+        for (const PendingContact<Real>& c : contacts_) {
+            const ContactOutcome<Real> outcome = resolveContact(bodies, c, step.parameters);
+            collisions += outcome.collided();
+            keep(c, outcome);
         }
+    };
+    // Two loops, so that without listeners nobody works out what a contact exchanges.
+    if (step.keepContacts) {
+        resolveAll([&](const auto& c, const auto& outcome) {
+            records_.push_back(makeRecord(ResolvedContact<Real>{c, outcome}, step.from));
+        });
+    } else {
+        resolveAll([](const auto&, const auto&) {});
     }
+    step.counts.collisions += collisions;
 }
 
 template class SequentialImpulse<double>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <quadrille/body_ref.hpp>
 #include <quadrille/detail/host_device.hpp>
@@ -35,9 +36,12 @@ struct CreationNumbers {
 /// because an event reads all of it.
 template <class Real>
 struct Anchor {
-    Real x, y;            ///< px
-    Real vx, vy;          ///< px/s
-    double timeX, timeY;  ///< s; NaN for a body that is new or was edited from outside
+    /// The time of a body that is new: it is nowhere yet.
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    Real x = 0, y = 0;                        ///< px
+    Real vx = 0, vy = 0;                      ///< px/s
+    double timeX = unknown, timeY = unknown;  ///< s
 };
 
 template <class Real>

@@ -66,11 +66,9 @@ struct ContactOutcome {
 
 /// One axis of a contact between two moving bodies.
 template <class Real>
-QUADRILLE_HD inline AxisOutcome<Real> resolveAxis(Real* position, Real* velocity,
-                                                  const SharedColumn<Real>& half,
-                                                  const SharedColumn<Real>& mass,
-                                                  const PendingContact<Real>& c, Real sense,
-                                                  const StepParameters<Real>& step) {
+QUADRILLE_HD QUADRILLE_INLINE AxisOutcome<Real> resolveAxis(
+    Real* position, Real* velocity, const SharedColumn<Real>& half, const SharedColumn<Real>& mass,
+    const PendingContact<Real>& c, Real sense, const StepParameters<Real>& step) {
     const std::uint32_t other = c.b.row();
     AxisState<Real> a{position[c.a], velocity[c.a]};
     AxisState<Real> b{position[other], velocity[other]};
@@ -86,7 +84,7 @@ QUADRILLE_HD inline AxisOutcome<Real> resolveAxis(Real* position, Real* velocity
 
 /// One axis of a contact between a moving body and a static one.
 template <class Real>
-QUADRILLE_HD inline AxisOutcome<Real> resolveStaticAxis(
+QUADRILLE_HD QUADRILLE_INLINE AxisOutcome<Real> resolveStaticAxis(
     Real* position, Real* velocity, const SharedColumn<Real>& half, const SharedColumn<Real>& mass,
     Real fixedPosition, Real fixedHalf, const PendingContact<Real>& c, Real sense, Real gravity,
     const StepParameters<Real>& step) {
@@ -105,9 +103,8 @@ QUADRILLE_HD inline AxisOutcome<Real> resolveStaticAxis(
 /// Carries the contact out: changes position and velocity of its moving bodies. The contacts of a
 /// body must be carried out in canonical order.
 template <class Real>
-QUADRILLE_HD inline ContactOutcome<Real> resolveContact(const Bodies<Real>& bodies,
-                                                        const PendingContact<Real>& c,
-                                                        const StepParameters<Real>& step) {
+QUADRILLE_HD QUADRILLE_INLINE ContactOutcome<Real> resolveContact(
+    const Bodies<Real>& bodies, const PendingContact<Real>& c, const StepParameters<Real>& step) {
     const auto& m = bodies.moving;
     const auto& f = bodies.fixed;
     ContactOutcome<Real> outcome{};
