@@ -14,8 +14,18 @@ namespace quadrille {
 
 namespace {
 
-/// Bodies that are so many times as fast as the mean have bounds of their own.
-constexpr double outlier = 8;
+/// Bodies that are so many times as fast as the mean have bounds of their own, or more times, where
+/// collisions pass their speed on.
+constexpr double leastOutlier = 8;
+
+/// Events of a step, in the mean; beyond it, each body's are counted.
+constexpr std::uint64_t usualEventsPerBody = 1000;
+constexpr std::uint32_t mostEventsOfABody = 1'000'000;
+
+// What the parts of the search cost; measured (docs/performance.md).
+constexpr double buildPrice = 90;    // ns a body, for cells and the walk through them
+constexpr double collectPrice = 40;  // ns a candidate pair, found, listed and searched
+constexpr double againPrice = 30;    // ns a neighbour, searched again after an event
 
 /// px/s along the faster axis.
 template <class Moving>
@@ -42,6 +52,7 @@ ContinuousLaw<Real, Path>::ContinuousLaw(const StepSettings& settings, const Thr
 template <class Real, class Path>
 void ContinuousLaw<Real, Path>::begin(const LawBodies<Real>& bodies, Step<Real>& step) {
     records_.clear();
+    eventsOf_.clear();
     if (revision_ != bodies.revision) takeOver(bodies, step.from);
 }
 
@@ -100,6 +111,20 @@ bool ContinuousLaw<Real, Path>::place(const LawBodies<Real>& bodies, double t) c
     });
 }
 
+/// The largest half extent of any body, px.
+template <class Real, class Path>
+double ContinuousLaw<Real, Path>::largestHalf(const BodyView<Real>& bodies) const {
+    const auto largest = [](std::span<const Real> values, Real most) {
+        for (const Real value : values) most = std::max(most, value);
+        return most;
+    };
+    const auto& m = bodies.moving;
+    Real most = std::max(largest(m.halfWidth.values, m.halfWidth.common),
+                         largest(m.halfHeight.values, m.halfHeight.common));
+    most = largest(bodies.fixed.halfWidth, most);
+    return static_cast<double>(largest(bodies.fixed.halfHeight, most));
+}
+
 /// Looks at the speeds and positions of all bodies, at a time when they are up to date.
 template <class Real, class Path>
 void ContinuousLaw<Real, Path>::survey(const LawBodies<Real>& bodies) {
@@ -135,6 +160,7 @@ void ContinuousLaw<Real, Path>::survey(const LawBodies<Real>& bodies) {
                    : sumOver(m.size(), [&](std::size_t i) {
                          return static_cast<double>(m.halfWidth[i] + m.halfHeight[i]);
                      });
+    largest_ = largestHalf(bodies.read());
     gravityNow_ = 0;
     for (int axis = 0; falls && axis < 2; ++axis) {
         const bool any = team_.any(m.size(), &Thresholds::streamed, [&](auto begin, auto end) {
@@ -157,30 +183,32 @@ double ContinuousLaw<Real, Path>::sumOver(std::size_t rows, Function&& function)
     });
 }
 
+/// The sum over the bodies of the area in which another's centre makes a candidate pair, px^2, of a
+/// partition that covers a life of so many s.
+template <class Real, class Path>
+double ContinuousLaw<Real, Path>::areaOf(std::size_t rows, double life) const {
+    const auto count = static_cast<double>(rows);
+    const double size = sizeSum_ / count;
+    const double gain = gainOf();
+    const double speeds = gain * (speedSum_ + count * gravityNow_ * life);
+    const double squares = gain * gain * squareSum_ + 2 * gain * gravityNow_ * life * speeds;
+    return count * size * size + 4 * size * life * speeds + 4 * life * life * squares;
+}
+
 /// For how long the next partition is to cover the bodies, s: the longer, the seldomer it is built,
-/// and the more pairs it shows. `rest` is what is left of the step. The prices are measured
-/// (docs/performance.md); the result does not depend on the choice.
+/// and the more pairs it shows. `rest` is what is left of the step. The result does not depend on
+/// the choice.
 template <class Real, class Path>
 double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now, double rest) const {
-    constexpr double buildPrice = 90;    // ns a body, for cells and the walk through them
-    constexpr double collectPrice = 40;  // ns a candidate pair, found, listed and searched
-    constexpr double againPrice = 30;    // ns a neighbour, searched again after an event
-    constexpr double longest = 60;       // s
+    constexpr double longest = 60;  // s
 
     const auto count = static_cast<double>(rows);
     const double size = sizeSum_ / count;
     const double gain = gainOf();
-    const auto pairsIn = [&](double life) {
-        // Of density: the sum over the bodies of the area in which another's centre makes a pair.
-        const double speeds = gain * (speedSum_ + count * gravityNow_ * life);
-        const double squares = gain * gain * squareSum_ + 2 * gain * gravityNow_ * life * speeds;
-        return density_ *
-               (count * size * size + 4 * size * life * speeds + 4 * life * life * squares);
-    };
     const double elapsed = now - partitionTime_;
     const double eventRate = elapsed > 0 ? static_cast<double>(eventsSince_) / elapsed : 0;
     const auto costOf = [&](double life) {
-        const double pairs = pairsIn(life);
+        const double pairs = density_ * areaOf(rows, life);
         return (buildPrice * count + collectPrice * pairs) / life +
                againPrice * eventRate * 4 * pairs / count;
     };
@@ -211,6 +239,9 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     survey(bodies);
     life_ = chooseLife(m.size(), now, to - now);
     const double life = life_;
+    // Bounds that events break again and again are too narrow.
+    outlier_ = outran_ ? std::min(4 * outlier_, 1e9) : std::max(outlier_ / 2, leastOutlier);
+    outran_ = false;
     horizon_ = now + life;
     partitionTime_ = now;
     eventsSince_ = 0;
@@ -219,17 +250,17 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     // with the fastest.
     const double gain = gainOf();
     const double gained = gravityNow_ * life;
-    const double typical = outlier * speedSum_ / static_cast<double>(m.size());
+    const double typical = outlier_ * speedSum_ / static_cast<double>(m.size());
     const bool outliers = fastest_ > typical;
     const auto boundOf = [&](double speed) { return gain * (speed + gained); };
     bounds_.common = boundOf(outliers ? typical : fastest_);
     bounds_.own = nullptr;
-    // The rest covers the rounding of positions; without it a pair that only touches might be left
-    // out.
+    // The rest covers the rounding of positions, and what counts as touching.
+    const double room = 2 * touchTolerance * largest_;
     constexpr double eps = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
     farthest_ += boundOf(fastest_) * life;
     const auto wayAt = [&](double bound) {
-        return static_cast<Real>(bound * life * (1 + 1e-6) + eps * farthest_);
+        return static_cast<Real>(bound * life * (1 + 1e-6) + eps * farthest_ + room);
     };
     Reach<Real> reach(std::max(wayAt(bounds_.common), std::numeric_limits<Real>::min()));
     if (outliers) {
@@ -297,12 +328,14 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
         findAll(search, now, horizon_);
         step.counts.pairsTested += candidates_.size();
         noteDensity(bodies.moving.size());
+        mostEvents_ = eventsWorthTheLife(bodies.moving.size());
     } else {
         events_.queue.begin(to, eventOrder(motion.bodies));
     }
 
     using Loop = EventLoop<Real, Path>;
-    const EventWindow window{.to = to, .horizon = horizon_, .bounds = bounds_};
+    const EventWindow window{
+        .to = to, .horizon = horizon_, .bounds = bounds_, .mostEvents = mostEvents_ - eventsSince_};
     Loop loop(search, events_, window);
     const auto neighboursOf = [&](std::uint32_t row) { return neighbours_[row]; };
     loop.releaseFromChanged(now);
@@ -313,12 +346,9 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
         return to;
     }
     loop.prefetch();
-    const std::uint64_t most = Loop::mostEventsPerBody * (bodies.moving.size() + 1);
-    const auto count = [&](const PairEvent&) {
-        if (++step.counts.contacts > most) {
-            throw Error("the law 'continuous' found more than " +
-                        std::to_string(Loop::mostEventsPerBody) + " events per body in a step");
-        }
+    const std::uint64_t usual = usualEventsPerBody * (bodies.moving.size() + 1);
+    const auto count = [&](const PairEvent& event) {
+        if (++step.counts.contacts > usual) requireProgress(bodies.read(), event);
         return true;
     };
     const auto collided = [&](const PairEvent&, const ContactRecord& record) {
@@ -328,7 +358,8 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     const bool complete = loop.run(count, collided, neighboursOf);
     eventsSince_ += step.counts.contacts - before;
     if (complete) return to;
-    // A body has become too fast; another partition covers it, and the search goes on there.
+    // A body has become too fast, or pairs too dear; the search goes on with another partition.
+    outran_ = eventsSince_ <= mostEvents_;
     horizon_ = loop.stoppedAt();
     return horizon_;
 }
@@ -341,16 +372,40 @@ double ContinuousLaw<Real, Path>::sharedStretch() const {
     return size / (6 * gainOf() * fastest_);
 }
 
+/// Throws Error for a body that has so many events in this step that it would hardly ever end.
+template <class Real, class Path>
+void ContinuousLaw<Real, Path>::requireProgress(const BodyView<Real>& bodies,
+                                                const PairEvent& event) {
+    eventsOf_.resize(bodies.moving.size());
+    const auto countFor = [&](std::uint32_t row) {
+        if (++eventsOf_[row] <= mostEventsOfABody) return;
+        const auto& others = event.withStatic() ? bodies.fixed.entity : bodies.moving.entity;
+        throw Error("the law 'continuous': entity " +
+                    std::to_string(bodies.moving.entity[event.a]) + " collided more than " +
+                    std::to_string(mostEventsOfABody) + " times in one step, with entity " +
+                    std::to_string(others[event.b.row()]) + " at " + std::to_string(event.time) +
+                    " s; there is hardly any room between them and what holds them");
+    };
+    countFor(event.a);
+    if (!event.withStatic()) countFor(event.b.row());
+}
+
+/// After how many events the candidate pairs have cost several times what a new partition would,
+/// which shows fewer: more happens than was expected when their life was chosen.
+template <class Real, class Path>
+std::uint64_t ContinuousLaw<Real, Path>::eventsWorthTheLife(std::size_t rows) const {
+    constexpr double patience = 4;
+    const auto count = static_cast<double>(rows);
+    const auto pairs = static_cast<double>(candidates_.size());
+    const double build = buildPrice * count + collectPrice * pairs;
+    const double event = againPrice * 4 * std::max(pairs / count, 1.0);
+    return static_cast<std::uint64_t>(patience * build / event) + 1;
+}
+
 /// How many bodies there are around each, from the pairs that the partition shows.
 template <class Real, class Path>
 void ContinuousLaw<Real, Path>::noteDensity(std::size_t rows) {
-    const double life = life_;
-    const double size = sizeSum_ / static_cast<double>(rows);
-    const double gain = gainOf();
-    const double speeds = gain * (speedSum_ + static_cast<double>(rows) * gravityNow_ * life);
-    const double squares = gain * gain * squareSum_ + 2 * gain * gravityNow_ * life * speeds;
-    const double area = static_cast<double>(rows) * size * size + 4 * size * life * speeds +
-                        4 * life * life * squares;
+    const double area = areaOf(rows, life_);
     if (area > 0) density_ = static_cast<double>(candidates_.size()) / area;
 }
 
@@ -373,11 +428,11 @@ bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const S
 
 template <class Real, class Path>
 std::size_t ContinuousLaw<Real, Path>::bytes() const {
-    std::size_t sum = candidates_.bytes() + neighbours_.bytes() + events_.bytes() +
-                      ownBounds_.capacity() * sizeof(double) + ownReach_.capacity() * sizeof(Real) +
-                      stamps_.capacity() * sizeof(std::uint32_t) +
-                      found_.capacity() * sizeof(Found) +
-                      records_.capacity() * sizeof(ContactRecord);
+    std::size_t sum =
+        candidates_.bytes() + neighbours_.bytes() + events_.bytes() +
+        ownBounds_.capacity() * sizeof(double) + ownReach_.capacity() * sizeof(Real) +
+        stamps_.capacity() * sizeof(std::uint32_t) + found_.capacity() * sizeof(Found) +
+        eventsOf_.capacity() * sizeof(std::uint32_t) + records_.capacity() * sizeof(ContactRecord);
     for (const Found& found : found_) sum += found.events.bytes();
     return shared_ ? sum + shared_->bytes() : sum;
 }

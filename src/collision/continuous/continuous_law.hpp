@@ -48,8 +48,12 @@ class ContinuousLaw final : public ContactLaw<Real> {
     void survey(const LawBodies<Real>& bodies);
     template <class Function>
     double sumOver(std::size_t rows, Function&& function) const;
+    double areaOf(std::size_t rows, double life) const;
     double chooseLife(std::size_t rows, double now, double rest) const;
+    double largestHalf(const BodyView<Real>& bodies) const;
     void noteDensity(std::size_t rows);
+    std::uint64_t eventsWorthTheLife(std::size_t rows) const;
+    void requireProgress(const BodyView<Real>& bodies, const PairEvent& event);
     double sharedStretch() const;
     double gravityAlong(int axis) const { return axis == 0 ? gravityX_ : gravityY_; }
     /// A light body leaves a heavy one at up to twice the heavy one's speed.
@@ -74,6 +78,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     double farthest_ = 0;                  // px, from the origin along an axis; up to the horizon
     double speedSum_ = 0, squareSum_ = 0;  // over the bodies
     double sizeSum_ = 0;                   // px; a body's size is the mean of width and height
+    double largest_ = 0;                   // px, half an extent, of static bodies as well
     double gravityNow_ = 0;                // px/s^2, that bodies feel that do not rest
 
     double partitionTime_ = 0;  // s; the partition covers the bodies from here
@@ -82,8 +87,11 @@ class ContinuousLaw final : public ContactLaw<Real> {
     std::vector<double> ownBounds_;
     std::vector<Real> ownReach_;
     double life_ = 0;                // s, of the last partition, if no event ends it before
+    double outlier_ = 0;             // times the mean speed; faster bodies have bounds of their own
+    bool outran_ = false;            // an event made a body faster than its bound
     double density_ = 0;             // candidate pairs a px^2 around a body
     std::uint64_t eventsSince_ = 0;  // partitionTime_
+    std::uint64_t mostEvents_ = 0;   // after which the pairs are not worth their life
 
     ThreadsCandidatePairs<Real> candidates_;
     Neighbours neighbours_;
@@ -92,6 +100,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     EventLoopState events_;
     std::unique_ptr<SharedEvents<Real>> shared_;  // null where events take one thread
     std::vector<ContactRecord> records_;
+    std::vector<std::uint32_t> eventsOf_;  // each body in this step; empty in a usual one
 };
 
 /// The law for a configuration: paths fall where there is gravity.

@@ -26,6 +26,13 @@ bool EventLoop<Real, Path>::separatedAlready(const PairEvent& event) {
     return false;
 }
 
+/// Whether one of the bodies collides so often at once that it gets nowhere.
+template <class Real, class Path>
+bool EventLoop<Real, Path>::isJammed(const PairEvent& event, bool deep) {
+    const Bursts::Counts counts = state_.bursts.note(event, deep);
+    return counts.events > Bursts::mostEvents || (deep && counts.overlaps > Bursts::mostOverlaps);
+}
+
 /// Carries an event out. Returns whether any path changed.
 template <class Real, class Path>
 bool EventLoop<Real, Path>::resolve(const PairEvent& event, ContactRecord& record) {
@@ -33,11 +40,17 @@ bool EventLoop<Real, Path>::resolve(const PairEvent& event, ContactRecord& recor
         if (event.release) return resting_.release(event);
     }
     const EventContact contact = contactOf(motion_, event);
-    if (contact.once && separatedAlready(event)) return false;
+    if (contact.deep && motion_.restitution == 1 && separatedAlready(event)) return false;
+    Motion motion = motion_;
+    if (isJammed(event, contact.deep)) {
+        jammed_ = true;
+        if (window_.share || (contact.deep && !event.withStatic())) return false;
+        motion.restitution = 0;
+    }
     EventOutcome x;
     EventOutcome y;
-    if ((contact.axes & axisX) != 0) x = collide(event, 0, contact.senseX);
-    if ((contact.axes & axisY) != 0) y = collide(event, 1, contact.senseY);
+    if ((contact.axes & axisX) != 0) x = collide(motion, event, 0, contact.senseX);
+    if ((contact.axes & axisY) != 0) y = collide(motion, event, 1, contact.senseY);
     if (x.outcome == Outcome::Nothing && y.outcome == Outcome::Nothing) return false;
     changed(event.a);
     if (!event.withStatic()) changed(event.b.row());
@@ -62,10 +75,11 @@ bool EventLoop<Real, Path>::resolve(const PairEvent& event, ContactRecord& recor
 
 /// Carries out one axis of an event.
 template <class Real, class Path>
-EventOutcome EventLoop<Real, Path>::collide(const PairEvent& event, int axis, double sense) {
+EventOutcome EventLoop<Real, Path>::collide(const Motion& motion, const PairEvent& event, int axis,
+                                            double sense) {
     const EventOutcome outcome = quadrille::collide(
-        motion_, event, axis, sense,
-        [&](int along, double side) { return groups_.collide(event, along, side); });
+        motion, event, axis, sense,
+        [&](int along, double side) { return groups_.collide(motion, event, along, side); });
     if constexpr (falls) state_.mayRest = state_.mayRest || outcome.rests;
     return outcome;
 }

@@ -16,6 +16,10 @@ struct EventWindow {
     double to;           ///< s; the events until then are carried out
     double horizon;      ///< s; those until then are found, and the partition covers the bodies
     SpeedBounds bounds;  ///< for as long as these hold
+    std::uint64_t mostEvents;  ///< after so many, the loop ends
+    /// Other loops carry out the rest of the events; then what jams, and pushes bodies that may be
+    /// theirs, ends the loop.
+    bool share = false;
 };
 
 /// Carries events out in the order of time, and has the next ones of the bodies found that they
@@ -25,9 +29,6 @@ class EventLoop {
   public:
     using Search = EventSearch<Real, Path>;
     using Motion = typename Search::Motion;
-
-    /// Far more events per body and step than any scene has; a loop without progress ends here.
-    static constexpr std::uint64_t mostEventsPerBody = 1'000'000;
 
     /// All must outlive this.
     EventLoop(const Search& search, EventLoopState& state, const EventWindow& window)
@@ -71,17 +72,21 @@ class EventLoop {
     /// Carries out the events of the window. Calls `admit(event)` before each, which ends the loop
     /// if it is false; `collided(event, record)` after a collision; `othersOf(row)` for the bodies
     /// that one that has changed may meet. Returns whether all were carried out: an event that
-    /// makes a body too fast for the partition is the last, and its bodies stay in
-    /// EventLoopState::changed.
+    /// makes a body too fast for the partition, or after which there were more than
+    /// `window.mostEvents`, is the last, and its bodies stay in EventLoopState::changed.
     template <class Admit, class Collided, class OthersOf>
     bool run(Admit&& admit, Collided&& collided, OthersOf&& othersOf) {
+        std::uint64_t carriedOut = 0;
         while (!state_.queue.empty()) {
             const PairEvent event = state_.queue.pop();
             if (!search_.isCurrent(event)) continue;
             stoppedAt_ = event.time;
             if (!admit(event)) return false;
+            ++carriedOut;
             ContactRecord record{};
-            if (!resolve(event, record)) continue;
+            const bool changes = resolve(event, record);
+            if (jammed_ && window_.share) return false;
+            if (!changes) continue;
             if (record.axes != 0) collided(event, record);
             releaseFromChanged(event.time);
             for (const std::uint32_t row : state_.changed) {
@@ -89,6 +94,7 @@ class EventLoop {
                     return false;
                 }
             }
+            if (carriedOut > window_.mostEvents) return false;
             findForChanged(event.time, othersOf);
         }
         return true;
@@ -102,8 +108,9 @@ class EventLoop {
 
     void changed(std::uint32_t row);
     bool separatedAlready(const PairEvent& event);
+    bool isJammed(const PairEvent& event, bool deep);
     bool resolve(const PairEvent& event, ContactRecord& record);
-    EventOutcome collide(const PairEvent& event, int axis, double sense);
+    EventOutcome collide(const Motion& motion, const PairEvent& event, int axis, double sense);
 
     const Search& search_;
     const Motion& motion_;
@@ -112,6 +119,7 @@ class EventLoop {
     PushedGroups<Real, Path> groups_;
     SupportEnds<Real, Path> resting_;
     double stoppedAt_ = 0;  // s
+    bool jammed_ = false;   // a body collided so often at once that it gets nowhere
 };
 
 }  // namespace quadrille

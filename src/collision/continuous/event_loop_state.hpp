@@ -7,6 +7,7 @@
 
 #include <quadrille/body_ref.hpp>
 
+#include "collision/continuous/bursts.hpp"
 #include "collision/continuous/event_queue.hpp"
 
 namespace quadrille {
@@ -30,13 +31,15 @@ struct EventLoopState {
     double instant = -1;  ///< s
     std::vector<std::pair<std::uint32_t, BodyRef>> separated;
 
+    Bursts bursts;
+
     PushedGroup groupA, groupB;
     std::vector<std::uint32_t> groupChanged;
     std::vector<std::uint64_t> gathered;  ///< by which gathering a body was gathered last
     std::uint64_t gathering = 0;
 
     std::size_t bytes() const {
-        return queue.bytes() + groupA.bytes() + groupB.bytes() +
+        return queue.bytes() + bursts.bytes() + groupA.bytes() + groupB.bytes() +
                (changed.capacity() + 2 * separated.capacity() + groupChanged.capacity() +
                 2 * gathered.capacity()) *
                    sizeof(std::uint32_t);

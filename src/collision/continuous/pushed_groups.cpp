@@ -7,9 +7,8 @@ namespace quadrille {
 /// The bodies that `row` pushes along when it is pushed: those that it touches on that side and
 /// that move with it, and so on. Their masses are added in the order of creation.
 template <class Real, class Path>
-void PushedGroups<Real, Path>::gather(std::uint32_t row, int axis, double sense, double now,
-                                      PushedGroup& group) {
-    const auto& motion = search_.motion();
+void PushedGroups<Real, Path>::gather(const Motion& motion, std::uint32_t row, int axis,
+                                      double sense, double now, PushedGroup& group) {
     state_.gathered.resize(search_.rows());
     state_.gathered[row] = ++state_.gathering;
     group.rows.assign(1, row);
@@ -42,18 +41,19 @@ void PushedGroups<Real, Path>::move(const PushedGroup& group, int axis, double v
 }
 
 template <class Real, class Path>
-double PushedGroups<Real, Path>::collide(const PairEvent& event, int axis, double sense) {
+double PushedGroups<Real, Path>::collide(const Motion& motion, const PairEvent& event, int axis,
+                                         double sense) {
     const double now = event.time;
     PushedGroup& a = state_.groupA;
     PushedGroup& b = state_.groupB;
-    gather(event.a, axis, -sense, now, a);
+    gather(motion, event.a, axis, -sense, now, a);
     if (event.withStatic()) {
         b.held = true;
     } else {
-        gather(event.b.row(), axis, sense, now, b);
+        gather(motion, event.b.row(), axis, sense, now, b);
     }
     return collideGroups(
-        search_.motion(), event, axis, {a.mass, a.held}, {b.mass, b.held},
+        motion, event, axis, {a.mass, a.held}, {b.mass, b.held},
         [&](double velocity) { move(a, axis, velocity, now); },
         [&](double velocity) { move(b, axis, velocity, now); });
 }

@@ -15,16 +15,18 @@ template <class Real, class Path>
 class PushedGroups {
   public:
     using Search = EventSearch<Real, Path>;
+    using Motion = typename Search::Motion;
 
     /// Both must outlive this.
     PushedGroups(const Search& search, EventLoopState& state) : search_(search), state_(state) {}
 
-    /// Carries out one axis of an event, and returns the impulse, kg px/s. All bodies that it moves
-    /// are added to EventLoopState::groupChanged.
-    double collide(const PairEvent& event, int axis, double sense);
+    /// Carries out one axis of an event with the restitution of `motion`, and returns the impulse,
+    /// kg px/s. All bodies that it moves are added to EventLoopState::groupChanged.
+    double collide(const Motion& motion, const PairEvent& event, int axis, double sense);
 
   private:
-    void gather(std::uint32_t row, int axis, double sense, double now, PushedGroup& group);
+    void gather(const Motion& motion, std::uint32_t row, int axis, double sense, double now,
+                PushedGroup& group);
     void move(const PushedGroup& group, int axis, double velocity, double now);
 
     const Search& search_;

@@ -35,23 +35,25 @@ bool SharedEvents<Real>::tryRun(const BodyView<Real>& bodies, const Search& sear
     }
     const bool split = islands_.split(bodies, search.neighbours(), due_, way);
     if (split) {
-        team_.run(team_.size(),
-                  [&](unsigned worker) { runShare(search, whole, window, record, worker); });
+        const Bursts& bursts = whole.bursts.settled();
+        team_.run(team_.size(), [&](unsigned worker) {
+            runShare(search, whole, bursts, window, record, worker);
+        });
     }
-    const std::uint64_t most = Loop::mostEventsPerBody * (search.rows() + 1);
-    const bool complete = split && allComplete(most);
+    const bool complete = split && allComplete(window.mostEvents);
     team_.run(team_.size(), [&](unsigned worker) {
         if (complete) findAcross(search, window, shares_[worker]);
         islands_.forget(worker);
     });
-    if (complete && allComplete(most)) return true;
+    if (complete && allComplete(window.mostEvents)) return true;
     if (split) undo(search);
     return false;
 }
 
 template <class Real>
 void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& whole,
-                                  const EventWindow& window, bool record, unsigned worker) {
+                                  const Bursts& bursts, const EventWindow& window, bool record,
+                                  unsigned worker) {
     Share& own = shares_[worker];
     const auto& m = search.motion().bodies.moving;
     own.before.clear();
@@ -62,10 +64,10 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
     own.state.changed.clear();
     own.state.instant = whole.instant;
     own.state.separated = whole.separated;
+    own.state.bursts = bursts;
 
-    const std::uint64_t most = Loop::mostEventsPerBody * (search.rows() + 1);
     const auto admit = [&](const PairEvent& event) {
-        if (++own.counts.contacts > most) return false;
+        if (++own.counts.contacts > window.mostEvents) return false;
         if (!islands_.belongsTo(event.a, worker)) return false;
         own.before.push_back({event.a, search.stamp(event.a), m.anchors[event.a]});
         if (event.withStatic()) return true;
@@ -93,7 +95,9 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
         }
         return own.others;
     };
-    Loop loop(search, own.state, window);
+    EventWindow part = window;
+    part.share = true;
+    Loop loop(search, own.state, part);
     loop.prefetch();
     own.complete = loop.run(admit, collided, othersOf);
     for (const Before& before : own.before) {
@@ -147,6 +151,7 @@ void SharedEvents<Real>::finish(EventLoopState& whole, std::vector<ContactRecord
     for (Share& share : shares_) {
         EventLoopState& state = share.state;
         whole.queue.take(state.queue);
+        whole.bursts.take(state.bursts);
         counts.contacts += share.counts.contacts;
         counts.collisions += share.counts.collisions;
         records_.insert(records_.end(), share.records.begin(), share.records.end());

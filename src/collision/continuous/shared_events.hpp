@@ -73,8 +73,8 @@ class SharedEvents {
 
     bool tryRun(const BodyView<Real>& bodies, const Search& search, EventLoopState& whole,
                 const EventWindow& window, double way, bool record);
-    void runShare(const Search& search, const EventLoopState& whole, const EventWindow& window,
-                  bool record, unsigned worker);
+    void runShare(const Search& search, const EventLoopState& whole, const Bursts& bursts,
+                  const EventWindow& window, bool record, unsigned worker);
     void findAcross(const Search& search, const EventWindow& window, Share& share);
     bool allComplete(std::uint64_t mostEvents) const;
     void undo(const Search& search);

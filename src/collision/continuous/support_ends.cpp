@@ -27,9 +27,10 @@ void SupportEnds<Real, Path>::releaseFromChanged(double now) {
         for (int axis = 0; axis < 2; ++axis) {
             const std::uint32_t row = state_.changed[i];
             release(row, axis, now);
-            if (search_.motion().rests(row, axis)) continue;
             for (const BodyRef b : search_.neighbours()[row]) {
-                if (!b.isStatic()) release(b.row(), axis, now);
+                if (!b.isStatic() && mayLieOn(search_.motion(), b.row(), row, axis, now)) {
+                    release(b.row(), axis, now);
+                }
             }
         }
     }

@@ -16,17 +16,19 @@
 /// Equal masses that collide elastically exchange paths, shifted by the distance of their centres:
 /// no rounding at all where sizes and anchors lie on a lattice of doubles.
 ///
-/// Pairs that overlap all the same, from the start or by an ulp of rounding, count as touching on
-/// their axis of least penetration and collide only if they approach (Bannerman et al.,
-/// arXiv:1211.6718), once at any instant.
+/// Pairs that overlap all the same, from the start or by rounding, count as touching on their axis
+/// of least penetration and collide only if they approach (Bannerman et al., arXiv:1211.6718). Deep
+/// inside each other and without loss, they do so once at any instant.
 ///
-/// Two thresholds end what would otherwise have no end. A rebound off something that holds is none
-/// if gravity would bring it back before it left the rounding of positions: the body then rests,
-/// without acceleration, until it is hit, or slides off its last support. Where restitution is
-/// below 1, pairs that would part slower than `restSpeed` go on with their common velocity. And a
-/// body that rests is held by its support: with restitution below 1, what falls on it rebounds as
-/// from the support itself (Newton's law for simultaneous impacts; Moreau 1988), so that a pile
-/// does not pass each impact down and up again without end.
+/// What would otherwise have no end, ends so. A rebound off something that holds is none if gravity
+/// would bring it back before it left the touching distance: the body then rests, without
+/// acceleration, until it is hit, or slides off its last support. Where restitution is below 1,
+/// pairs that would part slower than `restSpeed` go on with their common velocity. A body that
+/// rests is held by its support: with restitution below 1, what falls on it rebounds as from the
+/// support itself (Newton's law for simultaneous impacts; Moreau 1988), so that a pile does not
+/// pass each impact down and up again without end. And a body that collides again and again at one
+/// instant, because it exactly fits between others or is jammed among them, loses what it collides
+/// with: restitution is 0 there, and moving bodies deep inside each other let each other pass.
 
 namespace quadrille {
 
@@ -49,9 +51,7 @@ QUADRILLE_HD inline double creep(double va, double vb, double restitution) {
 struct EventContact {
     std::uint8_t axes;  ///< axisX, axisY, or both at a corner
     std::int8_t senseX, senseY;
-    /// The pair overlaps deeply, and collides once at any instant: a body that is wedged between
-    /// two others would be sent to and fro for ever. With restitution below 1 it is not.
-    bool once;
+    bool deep;  ///< the pair overlaps by more than rounding
 };
 
 template <class Real, class Path>
@@ -72,7 +72,7 @@ QUADRILLE_HD inline EventContact contactOf(const ExactMotion<Real, Path>& motion
         const double slack =
             motion.rounding(a.along[axis], b.along[axis], axis == 0 ? reachX : reachY, now);
         contact.axes = least.axis;
-        contact.once = motion.restitution == 1 && least.depth > slack;
+        contact.deep = least.depth > slack;
     }
     return contact;
 }
@@ -217,16 +217,14 @@ QUADRILLE_HD inline double collideGroups(const ExactMotion<Real, Path>& motion,
     collideSides(va, vb, a, b, motion.restitution);
     if (!a.held) moveA(va);
     if (!b.held) moveB(vb);
-    double impulse = a.held ? b.mass * magnitude(vb - oldB) : a.mass * magnitude(va - oldA);
-    if (a.held && b.held) {
-        const auto stop = [&](std::uint32_t row) {
-            motion.set(row, axis, motion.path(row, axis).position(now), 0, now);
-        };
-        stop(event.a);
-        if (!event.withStatic()) stop(event.b.row());
-        impulse = motion.bodies.moving.mass[event.a] * magnitude(oldA);
-    }
-    return impulse;
+    // What is held stands, though it may have crept.
+    const auto stop = [&](std::uint32_t row, double speed) {
+        if (speed != 0) motion.set(row, axis, motion.path(row, axis).position(now), 0, now);
+    };
+    if (a.held) stop(event.a, oldA);
+    if (b.held && !event.withStatic()) stop(event.b.row(), oldB);
+    if (a.held && b.held) return motion.bodies.moving.mass[event.a] * magnitude(oldA);
+    return a.held ? b.mass * magnitude(vb - oldB) : a.mass * magnitude(va - oldA);
 }
 
 // ---- all of them

@@ -26,15 +26,16 @@ QUADRILLE_HD inline bool comesNear(Number d, Number u, Number reach, Number h, N
     return magnitude(d + half) < reach + magnitude(half) + slack;
 }
 
-/// Room for gravity and for the rounding of positions and times in comesNear(), px.
+/// Room in comesNear() for gravity, for what touches, and for the rounding of positions and times,
+/// px.
 template <class Real, class Path>
 QUADRILLE_HD inline double nearSlack(const ExactMotion<Real, Path>& motion, int axis,
-                                     double position, double u, double h, double to) {
+                                     double position, double reach, double u, double h, double to) {
     constexpr double eps = 16 * machineEpsilon<Real>;
     constexpr double epsTime = 16 * machineEpsilon<double>;
-    const double room = eps * position + magnitude(u) * (eps * h + epsTime * to);
+    const double room = eps * (position + reach) + magnitude(u) * (eps * h + epsTime * to);
     if constexpr (!Path::falls) return room;
-    return room + magnitude(motion.gravity(axis)) * h * h;
+    return room + touchTolerance * reach + magnitude(motion.gravity(axis)) * h * h;
 }
 
 /// Whether two moving bodies come near each other along an axis until `to`, a time h after that of
@@ -48,7 +49,7 @@ QUADRILLE_HD inline bool comesNear(const ExactMotion<Real, Path>& motion, std::u
     const SharedColumn<Real>& half = axis == 0 ? m.halfWidth : m.halfHeight;
     const Real u = velocity[b] - velocity[a];
     const Real reach = half[a] + half[b];
-    const double slack = nearSlack(motion, axis, magnitude(position[a]) + reach, u, h, to);
+    const double slack = nearSlack(motion, axis, magnitude(position[a]), reach, u, h, to);
     return comesNear(position[b] - position[a], u, reach, h, static_cast<Real>(slack));
 }
 
@@ -188,7 +189,7 @@ QUADRILLE_HD inline void findFor(const ExactMotion<Real, Path>& motion, std::uin
             const double d = other.along[axis].position(now) - at[axis];
             const double u = other.along[axis].speed(now) - velocity[axis];
             const double reach = motion.reachOf(row, b, axis);
-            const double slack = nearSlack(motion, axis, magnitude(at[axis]) + reach, u, h, to);
+            const double slack = nearSlack(motion, axis, magnitude(at[axis]), reach, u, h, to);
             near = comesNear(d, u, reach, h, slack);
         }
         if (near) findNext(motion, row, own, b, other, now, to, true, emit);

@@ -23,6 +23,10 @@ QUADRILLE_HD inline double acceleration(const FallingPath& path) { return path.a
 
 QUADRILLE_HD inline constexpr std::uint8_t axisBit(int axis) { return axis == 0 ? axisX : axisY; }
 
+/// What is so much of its touching distance nearer or farther still touches: far above what
+/// rounding adds up to in many events, far below what can be seen.
+inline constexpr double touchTolerance = 1e-9;
+
 /// The paths of all bodies along the axes 0 (x) and 1 (y), in double precision, and what decides
 /// about them. A moving body is its row.
 template <class Real, class PathOfAxis>
@@ -108,7 +112,8 @@ struct ExactMotion {
     QUADRILLE_HD static double rounding(const Path& a, const Path& b, double reach, double now) {
         constexpr double eps = 8 * machineEpsilon<Real>;
         constexpr double epsTime = 8 * machineEpsilon<double>;
-        return eps * (magnitude(a.position(now)) + magnitude(b.position(now)) + reach) +
+        return touchTolerance * reach +
+               eps * (magnitude(a.position(now)) + magnitude(b.position(now)) + reach) +
                epsTime * magnitude(now) * (magnitude(a.speed(now)) + magnitude(b.speed(now)));
     }
 

@@ -22,7 +22,16 @@ QUADRILLE_HD inline double restsUntil(const ExactMotion<Real, Path>& motion, std
     const double reach = motion.reachOf(upper, lower, axis);
     const double distance = q.position(now) - p.position(now);
     if (!(distance * motion.gravity(axis) > 0)) return -never;
-    if (magnitude(magnitude(distance) - reach) > motion.rounding(p, q, reach, now)) return -never;
+    const double rounding = motion.rounding(p, q, reach, now);
+    const double depth = reach - magnitude(distance);
+    if (depth < -rounding) return -never;
+    if (depth > rounding) {
+        // Deep inside, it rests on what is nearest to being left along this axis.
+        const int other = 1 - axis;
+        const double across =
+            motion.path(lower, other).position(now) - motion.path(upper, other).position(now);
+        if (motion.reachOf(upper, lower, other) - magnitude(across) <= depth) return -never;
+    }
     return alongsideUntil(motion, upper, lower, 1 - axis, now);
 }
 
@@ -42,6 +51,19 @@ QUADRILLE_HD inline bool supported(const ExactMotion<Real, Path>& motion, std::u
         if (motion.holds(b, axis) && restsUntil(motion, row, b, axis, now) > now) return true;
     }
     return false;
+}
+
+/// Whether `upper` rests, and may do so on `lower`, as far as can be seen along the axis.
+template <class Real, class Path>
+QUADRILLE_HD inline bool mayLieOn(const ExactMotion<Real, Path>& motion, std::uint32_t upper,
+                                  std::uint32_t lower, int axis, double now) {
+    if (!motion.rests(upper, axis)) return false;
+    // What rested on a body that has left lies where that body was, at most a rebound away.
+    if (!motion.rests(lower, axis)) return true;
+    const double distance =
+        motion.path(lower, axis).position(now) - motion.path(upper, axis).position(now);
+    const double reach = motion.reachOf(upper, BodyRef::moving(lower), axis);
+    return distance * motion.gravity(axis) > 0 && magnitude(distance) < reach * (1 + 1e-6);
 }
 
 /// Lets a body fall that rested, if none of those that it may meet holds it any more. Returns

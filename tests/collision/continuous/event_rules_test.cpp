@@ -105,7 +105,7 @@ TYPED_TEST(EventRules, ABodyMeetsAStaticOneAtACorner) {
     EXPECT_EQ(contact.axes, axisX | axisY);
     EXPECT_EQ(contact.senseX, 1);
     EXPECT_EQ(contact.senseY, -1);
-    EXPECT_FALSE(contact.once);
+    EXPECT_FALSE(contact.deep);
 }
 
 TYPED_TEST(EventRules, NothingHappensToBodiesThatPassEachOther) {
@@ -129,7 +129,7 @@ TYPED_TEST(EventRules, OverlapIsLookedAtAfterAnEventOnly) {
     EXPECT_EQ(events[0].axes, 0);
     const EventContact contact = contactOf(motion, events[0]);
     EXPECT_EQ(contact.axes, axisX);
-    EXPECT_TRUE(contact.once);
+    EXPECT_TRUE(contact.deep);
     // Once they part, nothing more happens.
     collideAlong(motion, events[0], 0);
     EXPECT_EQ(motion.bodies.moving.vx[0], TypeParam(-1));
