@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <quadrille/config.hpp>
@@ -39,6 +41,17 @@ std::optional<Kind> find(std::span<const Named<Kind>> all, std::string_view name
         if (named.name == name) return named.kind;
     }
     return std::nullopt;
+}
+
+/// "a, b or c".
+template <class Kind>
+std::string alternatives(std::span<const Named<Kind>> all) {
+    std::string text;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i > 0) text += i + 1 < all.size() ? ", " : " or ";
+        text += all[i].name;
+    }
+    return text;
 }
 
 /// Whether the law runs on the resolver. `Auto` runs every law.

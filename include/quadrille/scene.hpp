@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <quadrille/config.hpp>
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
@@ -22,6 +23,7 @@ struct Scene {
     std::uint64_t seed = 1;
     World world;
     StepSettings step;
+    std::optional<Law> law = {};  ///< that the scene names
 };
 
 /// Reads a scene file (TOML; docs/scenes.md describes the format) and makes its bodies: walls,

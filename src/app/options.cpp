@@ -130,17 +130,6 @@ std::vector<std::string> namesOf(std::span<const Named<Kind>> all) {
     return names;
 }
 
-/// "a, b or c".
-template <class Kind>
-std::string alternatives(std::span<const Named<Kind>> all) {
-    std::string text;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i > 0) text += i + 1 < all.size() ? ", " : " or ";
-        text += all[i].name;
-    }
-    return text;
-}
-
 /// Each with what it is good for.
 template <class Kind>
 std::string alternativesWithMeaning(std::span<const Named<Kind>> all) {

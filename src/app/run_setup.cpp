@@ -17,7 +17,7 @@ struct Start {
     std::uint64_t seed;
     World world;
     StepSettings step;
-    Law law = Law::Impulse;
+    Law law;
     std::uint64_t stepsDone = 0;
 };
 
@@ -37,7 +37,8 @@ Start loadStart(const Options& options) {
     return {.scene = std::move(scene.name),
             .seed = scene.seed,
             .world = std::move(scene.world),
-            .step = scene.step};
+            .step = scene.step,
+            .law = scene.law.value_or(Law::Impulse)};
 }
 
 /// The resolver that is asked for, or the sequential one where the law does not run on it.

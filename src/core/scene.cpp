@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 #include <quadrille/scene.hpp>
 
 #include "core/instances.hpp"
@@ -35,6 +36,7 @@ struct SceneDescription {
     double aspect = 1.5;
     std::optional<WallsConfig> walls;
     StepSettings step;
+    std::optional<Law> law;
     std::vector<SpawnGroup> spawns;
     std::vector<PlacedBody> bodies;
 };
@@ -72,6 +74,10 @@ void readStep(SceneTable table, SceneDescription& scene) {
     step.restitution = table.number("restitution").value_or(step.restitution);
     if (step.restitution < 0 || step.restitution > 1) {
         table.fail("restitution", "must be from 0 to 1");
+    }
+    if (const auto law = table.string("law")) {
+        scene.law = find(laws(), *law);
+        if (!scene.law) table.fail("law", "must be " + alternatives(laws()));
     }
     table.finish();
 }
@@ -208,7 +214,8 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
         Scene scene{.name = description.name,
                     .seed = config.seed,
                     .world = World(config),
-                    .step = description.step};
+                    .step = description.step,
+                    .law = description.law};
         World& world = scene.world;
         Vec2 room = config.size;
         if (description.walls) {

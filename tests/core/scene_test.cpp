@@ -58,6 +58,7 @@ TEST_F(SceneFile, SmallestSceneIsAnOpenEmptyWorldWithDefaults) {
     EXPECT_EQ(scene.step.dt, 1.0 / 60);
     EXPECT_EQ(scene.step.gravity, Vec2(0, 0));
     EXPECT_EQ(scene.step.restitution, 1);
+    EXPECT_EQ(scene.law, std::nullopt);
 }
 
 TEST_F(SceneFile, RootWorldAndStepAreRead) {
@@ -72,6 +73,7 @@ walls = { thickness = 30, inset = 5 }
 dt = 0.001
 gravity = [1, -2.5]
 restitution = 0.25
+law = "continuous"
 )");
     EXPECT_EQ(scene.name, "a name");
     EXPECT_EQ(scene.seed, 77u);
@@ -80,6 +82,7 @@ restitution = 0.25
     EXPECT_EQ(scene.step.dt, 0.001);
     EXPECT_EQ(scene.step.gravity, Vec2(1, -2.5));
     EXPECT_EQ(scene.step.restitution, 0.25);
+    EXPECT_EQ(scene.law, Law::Continuous);
     ASSERT_EQ(scene.world.staticCount(), 4u);
     const Entity left = scene.world.at(0);
     EXPECT_EQ(scene.world.get<Transform>(left).position, Vec2(-320 + 5 - 15, 0));
