@@ -24,6 +24,12 @@ using accuracy::velocity;
 
 constexpr double down = -200;  // px/s^2
 
+/// Place i of a lattice that is filled row by row from its first place on.
+Vec2 latticePlace(int i, int columns, const Vec2& first, const Vec2& pitch) {
+    const int row = i / columns;
+    return first + Vec2(pitch.x() * (i % columns), pitch.y() * row);
+}
+
 struct HeapScene {
     const char* name;
     Vec2 size;            // of the container
@@ -39,7 +45,7 @@ const HeapScene heapScenes[] = {
      false,
      [](auto& bodies, Random& random) {
          for (int i = 0; i < 400; ++i) {
-             bodies.push_back({{-50 + 11.0 * (i % 10), -330 + 11.0 * (i / 10)},
+             bodies.push_back({latticePlace(i, 10, {-50, -330}, {11, 11}),
                                {random.uniform(-20, 20), random.uniform(-20, 20)},
                                {8, 8}});
          }
@@ -49,8 +55,8 @@ const HeapScene heapScenes[] = {
      true,
      [](auto& bodies, Random& random) {
          for (int i = 0; i < 400; ++i) {
-             bodies.push_back({{-50 + 11.0 * (i % 10) + random.uniform(-1, 1),
-                                -330 + 11.0 * (i / 10) + random.uniform(-1, 1)},
+             bodies.push_back({latticePlace(i, 10, {-50, -330}, {11, 11}) +
+                                   Vec2(random.uniform(-1, 1), random.uniform(-1, 1)),
                                {0, random.uniform(-20, 20)},
                                {8, 8}});
          }
@@ -71,11 +77,10 @@ const HeapScene heapScenes[] = {
      true,
      [](auto& bodies, Random& random) {
          for (int i = 0; i < 96; ++i) {
-             bodies.push_back(
-                 {{-70 + 20.0 * (i % 8) + random.uniform(-3, 3), -120 + 18.0 * (i / 8)},
-                  {0, 0},
-                  {12, 12},
-                  std::pow(10, 4 * (i / 8) / 11.0)});
+             bodies.push_back({latticePlace(i, 8, {-70 + random.uniform(-3, 3), -120}, {20, 18}),
+                               {0, 0},
+                               {12, 12},
+                               std::pow(10, 4 * latticePlace(i, 8, {0, 0}, {0, 1}).y() / 11)});
          }
      }},
     {"UnequalSizes",
@@ -84,11 +89,10 @@ const HeapScene heapScenes[] = {
      [](auto& bodies, Random& random) {
          for (int i = 0; i < 120; ++i) {
              const Vec2 size(random.uniform(2, 20), random.uniform(2, 20));
-             bodies.push_back(
-                 {{-135 + 30.0 * (i % 10) + random.uniform(-4, 4), -180 + 28.0 * (i / 10)},
-                  {0, 0},
-                  size,
-                  size.x() * size.y()});
+             bodies.push_back({latticePlace(i, 10, {-135 + random.uniform(-4, 4), -180}, {30, 28}),
+                               {0, 0},
+                               size,
+                               size.x() * size.y()});
          }
      }},
     {"Galton",
@@ -96,14 +100,14 @@ const HeapScene heapScenes[] = {
      true,
      [](auto& bodies, Random& random) {
          for (int i = 0; i < 60; ++i) {
-             bodies.push_back({{-95 + 20.0 * (i % 10) + (i / 10 % 2) * 10, -60 + 20.0 * (i / 10)},
+             bodies.push_back({latticePlace(i, 10, {-95.0 + i / 10 % 2 * 10, -60}, {20, 20}),
                                {0, 0},
                                {4, 4},
                                1,
                                true});
          }
          for (int i = 0; i < 200; ++i) {
-             bodies.push_back({{-95 + 9.9 * (i % 20) + random.uniform(-1, 1), 80 + 9.0 * (i / 20)},
+             bodies.push_back({latticePlace(i, 20, {-95 + random.uniform(-1, 1), 80}, {9.9, 9}),
                                {0, 0},
                                {5, 5}});
          }
@@ -117,10 +121,9 @@ const HeapScene heapScenes[] = {
                  {{-90 + 20.0 * i, -150 + 4.0 * (i + 1)}, {0, 0}, {20, 8.0 * (i + 1)}, 1, true});
          }
          for (int i = 0; i < 150; ++i) {
-             bodies.push_back(
-                 {{-90 + 12.0 * (i % 15) + random.uniform(-1, 1), 10 + 12.0 * (i / 15)},
-                  {random.uniform(-10, 10), 0},
-                  {7, 7}});
+             bodies.push_back({latticePlace(i, 15, {-90 + random.uniform(-1, 1), 10}, {12, 12}),
+                               {random.uniform(-10, 10), 0},
+                               {7, 7}});
          }
      }},
     {"HeapHitByAFastBox",
@@ -128,7 +131,7 @@ const HeapScene heapScenes[] = {
      false,
      [](auto& bodies, Random&) {
          for (int i = 0; i < 100; ++i) {
-             bodies.push_back({{-60 + 8.0 * (i % 10), -116 + 8.0 * (i / 10)}, {0, 0}, {8, 8}});
+             bodies.push_back({latticePlace(i, 10, {-60, -116}, {8, 8}), {0, 0}, {8, 8}});
          }
          bodies.push_back({{-230, -80}, {2000, 0}, {16, 16}, 50});
      }},
@@ -166,7 +169,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Heaps,
                          });
 
 TEST_P(Heaps, EndInOrder) {
-    const auto& [scene, restitution] = GetParam();
+    const HeapScene& scene = std::get<0>(GetParam());
+    const double restitution = std::get<1>(GetParam());
     Simulation sim = heapOf(scene, restitution);
     const Vec2 gravity(0, down);
     // Heights count from the floor, so that no sum of terms of both signs hides a gain.

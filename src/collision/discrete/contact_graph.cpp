@@ -158,7 +158,7 @@ std::size_t ContactGraph<Real>::bytes() const {
     std::size_t sum = nodeCapacity_ * sizeof(Node) + headCapacity_ * sizeof(Slot) +
                       workers_.capacity() * sizeof(Worker);
     for (const Worker& worker : workers_) {
-        sum += worker.log.bytes() + worker.list.capacity() * sizeof(Slot) +
+        sum += worker.log.bytes() + worker.list.capacity() * sizeof(Entry) +
                worker.ready.capacity() * sizeof(std::uint32_t);
     }
     return sum;

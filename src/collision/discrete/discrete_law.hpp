@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "collision/integrate.hpp"
 #include "collision/law.hpp"
 
@@ -27,7 +29,6 @@ class DiscreteLaw : public ContactLaw<Real> {
     explicit DiscreteLaw(const ThreadTeam& team) : team_(team) {}
     virtual void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                          Step<Real>& step) = 0;
-    const ThreadTeam& team() const { return team_; }
 
   private:
     const ThreadTeam& team_;
