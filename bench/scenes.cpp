@@ -31,13 +31,6 @@ struct Options {
     TableFiles files;
 };
 
-template <class Kind>
-std::vector<std::string> namesOf(std::span<const Named<Kind>> all) {
-    std::vector<std::string> names;
-    for (const Named<Kind>& named : all) names.emplace_back(named.name);
-    return names;
-}
-
 /// What the names stand for.
 template <class Kind>
 std::vector<Kind> kindsOf(const std::vector<std::string>& names, std::span<const Named<Kind>> all) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <quadrille/config.hpp>
 #include <quadrille/step_report.hpp>
@@ -41,6 +42,14 @@ std::optional<Kind> find(std::span<const Named<Kind>> all, std::string_view name
         if (named.name == name) return named.kind;
     }
     return std::nullopt;
+}
+
+/// The names of all that there are.
+template <class Kind>
+std::vector<std::string> namesOf(std::span<const Named<Kind>> all) {
+    std::vector<std::string> names;
+    for (const Named<Kind>& named : all) names.emplace_back(named.name);
+    return names;
 }
 
 /// "a, b or c".

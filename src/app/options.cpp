@@ -122,14 +122,6 @@ PartitionerConfig makePartitionerConfig(const RawOptions& raw) {
     return config;
 }
 
-/// The names of all that there are.
-template <class Kind>
-std::vector<std::string> namesOf(std::span<const Named<Kind>> all) {
-    std::vector<std::string> names;
-    for (const Named<Kind>& named : all) names.emplace_back(named.name);
-    return names;
-}
-
 /// Each with what it is good for.
 template <class Kind>
 std::string alternativesWithMeaning(std::span<const Named<Kind>> all) {

@@ -1,6 +1,8 @@
+#include <cstdint>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <quadrille/state_hash.hpp>
@@ -100,6 +102,27 @@ TEST(Continuous, StepsEndWhateverTheSpeedsAre) {
             }
         }
     }
+}
+
+// How many pairs are looked at follows from what happens and not from how time is cut into steps.
+TEST(Continuous, LongStepsLookAtNoMorePairsThanShortOnes) {
+    const auto run = [](double dt, std::uint64_t steps, std::uint64_t& pairs) {
+        World world({.size = {240, 240}, .seed = 5});
+        world.addWalls({.thickness = 20});
+        for (int i = 0; i < 400; ++i) {
+            const Vec2 velocity(world.random().uniform(-30, 30), world.random().uniform(-30, 30));
+            const int row = i / 20;
+            world.add(world.create(), Transform{{12.0 * (i % 20) - 114, 12.0 * row - 114}},
+                      BoxCollider{{2, 2}}, PhysicsBody{.velocity = velocity});
+        }
+        Simulation sim(std::move(world), {.law = Law::Continuous, .step = {.dt = dt}});
+        for (std::uint64_t i = 0; i < steps; ++i) pairs += sim.step().pairsTested;
+        return stateHash(sim.world());
+    };
+    std::uint64_t inLong = 0;
+    std::uint64_t inShort = 0;
+    EXPECT_EQ(run(256, 1, inLong), run(0.25, 1024, inShort));
+    EXPECT_LT(inLong, 1.2 * static_cast<double>(inShort));
 }
 
 TEST(Continuous, StepsOfNothingThatMovesEndHoweverLongTheyAre) {

@@ -68,6 +68,7 @@ void ContinuousLaw<Real, Path>::takeOver(const LawBodies<Real>& bodies, double n
     // that it goes on as if it had not been interrupted.
     revision_ = bodies.revision;
     events_.queue.clear();
+    events_.bursts = {};
     horizon_ = now;
     stamps_.assign(rows, 0);
     auto& changed = events_.changed;
@@ -216,8 +217,10 @@ double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now, doubl
     const double typical = gain * speedSum_ / count;
     const double fall = gravityNow_ > 0 ? std::sqrt(0.02 * size / (gain * gravityNow_)) : longest;
     double best = std::min({longest, fall, typical > 0 ? 0.01 * size / typical : longest});
-    // Speeds near the largest number would make it so short that time stands still.
-    if (!(best >= 1e-5 * rest)) return rest;
+    // Enormous speeds would make it so short that time stands still. Not against all of a long
+    // step: what is short beside that may be long beside a collision.
+    const double span = std::max(std::min(rest, 1.0), 1e-3 * rest);
+    if (!(best >= 1e-5 * span)) return span;
     // The first partitions show how crowded it is, step by step: pairs grow with the square.
     const double most = life_ > 0 ? std::min(4 * life_, longest) : best;
     for (double life = best; life < most; life *= 1.25) {
