@@ -127,6 +127,29 @@ TEST(ContinuousPile, FallsWhenItsSupportIsTaken) {
     }
 }
 
+// The support stops at a wall at the instant at which the upper box leaves its edge. Whichever of
+// the two events comes first, which the entities' numbers decide, the upper box must notice.
+TEST(ContinuousPile, FallsWhenItsSupportEndsAtTheInstantOfAnotherEvent) {
+    constexpr int copies = 12;
+    std::vector<Body> bodies;
+    for (int i = 0; i < copies; ++i) {
+        const double x = 40.0 * i;
+        bodies.push_back({{x, 2}, {2, 0}, {4, 4}});  // slides to x + 4
+        bodies.push_back({{x, 6}, {0, 0}, {4, 4}});  // on top of it
+        bodies.push_back({{x + 8, 2}, {0, 0}, {4, 4}, 1, true});
+    }
+    bodies.push_back({{200, -5}, {0, 0}, {1000, 10}, 1, true});
+    Simulation sim = drop(bodies, 0);
+    sim.run(150);
+    for (std::size_t i = 0; i < copies; ++i) {
+        SCOPED_TRACE("copy " + std::to_string(i));
+        const double x = 40.0 * static_cast<double>(i);
+        EXPECT_EQ(position(sim, 3 * i), Vec2(x + 4, 2));
+        EXPECT_EQ(position(sim, 3 * i + 1).x(), x);
+        EXPECT_NEAR(position(sim, 3 * i + 1).y(), 2, 1e-9);
+    }
+}
+
 TEST(ContinuousPile, ARowAgainstAWallIsStruckAsOne) {
     // Restitution 1/2: the striker comes back at half its speed, the row cannot give way.
     std::vector<Body> bodies{{{55, 0}, {0, 0}, {10, 100}, 1, true}};

@@ -62,10 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, ContactsOf,
                          testing::Combine(testing::Values(Law::Baseline, Law::Impulse,
                                                           Law::Continuous),
                                           testing::Values(Precision::Double, Precision::Float)),
-                         [](const auto& test) {
-                             return std::string(name(std::get<0>(test.param))) + "In" +
-                                    std::string(name(std::get<1>(test.param)));
-                         });
+                         lawInPrecision);
 
 TEST_P(ContactsOf, AHeadOnCollisionExchangesMassTimesChangeOfVelocity) {
     // Reduced mass 3/4, both velocities before and after known: the impulse is 2 * 3/4 * 64 = 96.

@@ -39,10 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Restore,
                          testing::Combine(testing::Values(Law::Baseline, Law::Impulse,
                                                           Law::Continuous),
                                           testing::Values(Precision::Double, Precision::Float)),
-                         [](const auto& test) {
-                             return std::string(name(std::get<0>(test.param))) + "In" +
-                                    std::string(name(std::get<1>(test.param)));
-                         });
+                         lawInPrecision);
 
 std::vector<std::uint64_t> hashesOf(Simulation& sim, int steps) {
     std::vector<std::uint64_t> hashes;

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
 #include <ostream>
 #include <random>
 #include <string>
 #include <system_error>
+#include <tuple>
 
 #include <quadrille/components.hpp>
 #include <quadrille/error.hpp>
@@ -54,6 +56,12 @@ std::string errorOf(Action&& action) {
 
 /// How test reports show a precision.
 inline void PrintTo(Precision precision, std::ostream* out) { *out << name(precision); }
+
+/// How tests are named that are run with laws in precisions.
+inline std::string lawInPrecision(const testing::TestParamInfo<std::tuple<Law, Precision>>& test) {
+    const auto [law, precision] = test.param;
+    return std::string(name(law)) + "In" + std::string(name(precision));
+}
 
 /// A folder of its own that goes away with the object.
 class TemporaryFolder {

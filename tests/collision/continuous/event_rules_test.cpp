@@ -371,6 +371,25 @@ TYPED_TEST(EventRules, BothHeldBothStop) {
     EXPECT_EQ(given, 6);
 }
 
+// Or it would meet the other one at the same instant again, without end.
+TYPED_TEST(EventRules, WhatIsHeldStopsThoughItCrept) {
+    for (const bool firstIsHeld : {true, false}) {
+        PlainWorld<TypeParam, StraightPath> world(0, 0.5);
+        world.add({.x = 0, .vx = firstIsHeld ? TypeParam(0.0625) : TypeParam(1)});
+        world.add({.x = 2, .vx = firstIsHeld ? TypeParam(-1) : TypeParam(-0.0625)});
+        const auto motion = world.motion();
+        PairEvent event = pairEvent(motion.bodies, 0, BodyRef::moving(1), 0);
+        event.axes = axisX;
+        const auto move = [&](std::uint32_t row) {
+            return [&, row](double velocity) { goOnWith(motion, row, 0, velocity, 0); };
+        };
+        collideGroups(motion, event, 0, {1, firstIsHeld}, {1, !firstIsHeld}, move(0), move(1));
+        EXPECT_EQ(world.vx[firstIsHeld ? 0 : 1], TypeParam(0));
+        // As the speed of approach was 1.0625.
+        EXPECT_EQ(world.vx[firstIsHeld ? 1 : 0], TypeParam(firstIsHeld ? 0.53125 : -0.53125));
+    }
+}
+
 // ---- gravity and rest
 
 TYPED_TEST(EventRules, AFallingBodyReboundsFromTheFloor) {
