@@ -24,10 +24,20 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(TARGET collisionStress)
-  # The installed program finds a shared library beside itself, wherever the prefix is moved to.
+  # The program finds a shared library beside itself, wherever the prefix is moved to. In the build
+  # tree it lies where it will once it is installed, so that no search path is edited afterwards:
+  # CMake makes room for that with empty entries, and an empty entry is the current folder.
   file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  get_target_property(core_type quadrille_core TYPE)
+  if(core_type STREQUAL SHARED_LIBRARY)
+    get_property(multi GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+    set_target_properties(quadrille_core PROPERTIES LIBRARY_OUTPUT_DIRECTORY
+      ${CMAKE_BINARY_DIR}/bin/$<$<BOOL:${multi}>:$<CONFIG>>/${lib_from_bin})
+    set_target_properties(collisionStress PROPERTIES
+      INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>/${lib_from_bin})
+  endif()
   set_target_properties(collisionStress PROPERTIES
-    INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>/${lib_from_bin})
+    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH_USE_LINK_PATH ON)
   install(TARGETS collisionStress RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 

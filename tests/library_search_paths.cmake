@@ -1,0 +1,61 @@
+# A program that looks for libraries in the current folder runs what a stranger put there. Fails if
+# a search path of a built program (the file PROGRAMS lists them), or of one that the build tree
+# BUILD_DIR installs, has an entry that is empty or relative to anything but the program itself.
+# Also: READELF, and CONFIG as BUILD_DIR has it.
+foreach(name READELF PROGRAMS BUILD_DIR)
+  if(NOT ${name})
+    message(FATAL_ERROR "${name} is not set")
+  endif()
+endforeach()
+
+# Reads the file if it is ELF, and counts it.
+function(check program)
+  file(READ ${program} magic LIMIT 4 HEX)
+  if(NOT magic STREQUAL 7f454c46)
+    return()
+  endif()
+  execute_process(COMMAND ${READELF} --dynamic --wide ${program} OUTPUT_VARIABLE dynamic
+                  COMMAND_ERROR_IS_FATAL ANY)
+  math(EXPR count "${checked} + 1")
+  set(checked ${count} PARENT_SCOPE)
+  string(REGEX MATCHALL "\\((RPATH|RUNPATH)\\)[^\n]*" lines "${dynamic}")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[^[]*\\[(.*)\\].*$" "\\1" path "${line}")
+    if(NOT ":${path}:" MATCHES "^:(([$]ORIGIN|[$]{ORIGIN}|/)[^:]*:)+$")
+      message(SEND_ERROR "${program} looks for libraries in '${path}'")
+    endif()
+  endforeach()
+endfunction()
+
+# A build of some targets only has not all of them.
+set(checked 0)
+file(STRINGS ${PROGRAMS} programs)
+foreach(program IN LISTS programs)
+  if(EXISTS ${program})
+    check(${program})
+  endif()
+endforeach()
+if(checked EQUAL 0)
+  message(FATAL_ERROR "none of the programs is built")
+endif()
+message(STATUS "${checked} programs and libraries in the build tree")
+
+set(config)
+if(CONFIG)
+  set(config --config ${CONFIG})
+endif()
+set(prefix ${BUILD_DIR}/library-search-paths-test)
+file(REMOVE_RECURSE ${prefix})
+unset(ENV{DESTDIR})
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} ${config}
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+set(checked 0)
+file(GLOB_RECURSE installed ${prefix}/*)
+foreach(file IN LISTS installed)
+  check(${file})
+endforeach()
+if(checked EQUAL 0)
+  message(FATAL_ERROR "no program was installed")
+endif()
+message(STATUS "${checked} programs and libraries in the installed tree")
+file(REMOVE_RECURSE ${prefix})
