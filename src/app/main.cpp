@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/run_setup.hpp"
+#include "app/standard_streams.hpp"
 #include "app/window/run_window.hpp"
 
 namespace quadrille::app {
@@ -18,8 +19,12 @@ namespace {
 
 int run(int argc, char** argv) {
     const ParsedOptions parsed = parseOptions(argc, argv);
-    if (!parsed.options) return parsed.exitCode;
+    if (!parsed.options) {
+        if (parsed.exitCode == done) requireStdout();
+        return parsed.exitCode;
+    }
     const Options& options = *parsed.options;
+    if (options.list || options.explain) requireStdout();
     if (options.list) {
         list(std::cout);
         return done;
@@ -53,8 +58,11 @@ int fail(const char* message, int code) {
 
 int main(int argc, char** argv) {
     using namespace quadrille;
+    app::openStandardStreams();
     try {
-        return app::run(argc, argv);
+        const int exitCode = app::run(argc, argv);
+        app::finishStdout();
+        return exitCode;
     } catch (const app::UsageError& error) {
         return app::fail(error.what(), app::usageError);
     } catch (const NotAvailable& error) {

@@ -7,6 +7,8 @@
 
 #include <quadrille/error.hpp>
 
+#include "app/standard_streams.hpp"
+
 namespace quadrille::app {
 
 namespace {
@@ -21,7 +23,10 @@ std::string shortest(Real value) {
 }  // namespace
 
 OutputFile::OutputFile(const std::string& name) : name_(name) {
-    if (name_ == "-") return;
+    if (name_ == "-") {
+        requireStdout();
+        return;
+    }
     namespace fs = std::filesystem;
     std::error_code error;
     const fs::file_status status = fs::status(name_, error);
@@ -49,8 +54,7 @@ std::ostream& OutputFile::stream() { return name_ == "-" ? std::cout : file_; }
 
 void OutputFile::commit() {
     if (name_ == "-") {
-        std::cout.flush();
-        if (!std::cout) throw Error("stdout: cannot be written");
+        finishStdout();
         return;
     }
     file_.close();
