@@ -9,6 +9,7 @@ enum ExitCode : int {
     usageError = 2,
     badInput = 3,  ///< scene or snapshot
     noDevice = 4,
+    interruptedBySignal = 128,  ///< plus the signal's number
 };
 
 }  // namespace quadrille::app

@@ -84,16 +84,17 @@ class ProgressLine {
 
 }  // namespace
 
-void runHeadless(Run run, const Options& options) {
+int runHeadless(Run run, const Options& options) {
     RunSession session(std::move(run), options);
     const Simulation& simulation = session.simulation();
     const RunStatistics& statistics = session.statistics();
     PeriodicReport report(wordsOf(options), simulation, session.start().total);
     ProgressLine progress(options.frames);
+    catchInterrupts();
     bool deviceFailed = !simulation.resolverFailure().empty();
     auto lastReport = Clock::now();
     auto lastProgress = lastReport;
-    while (!session.allFramesDone() && !interrupted()) {
+    while (!session.allFramesDone() && interruptedBy() == 0) {
         session.step();
         const auto now = Clock::now();
         if (!deviceFailed && !simulation.resolverFailure().empty()) {
@@ -114,7 +115,7 @@ void runHeadless(Run run, const Options& options) {
     }
     progress.wipe();
     report.print(statistics);
-    session.finish();
+    return session.finish();
 }
 
 }  // namespace quadrille::app

@@ -5,7 +5,8 @@
 
 namespace quadrille::app {
 
-/// Runs without a window until the options, or Ctrl-C, end it, and writes what was asked for.
-void runHeadless(Run run, const Options& options);
+/// Runs without a window until the options, or a signal, end it, and writes what was asked for.
+/// Returns the program's exit code.
+int runHeadless(Run run, const Options& options);
 
 }  // namespace quadrille::app

@@ -38,13 +38,7 @@ int run(int argc, char** argv) {
         explain(std::cout, run, !options.headless);
         return done;
     }
-    catchInterrupts();
-    if (options.headless) {
-        runHeadless(setUp(options), options);
-    } else {
-        runWindow(options);
-    }
-    return done;
+    return options.headless ? runHeadless(setUp(options), options) : runWindow(options);
 }
 
 int fail(const char* message, int code) {
@@ -59,6 +53,7 @@ int fail(const char* message, int code) {
 int main(int argc, char** argv) {
     using namespace quadrille;
     app::openStandardStreams();
+    app::cleanUpOnSignals();
     try {
         const int exitCode = app::run(argc, argv);
         app::finishStdout();

@@ -4,9 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,9 @@
 #include <quadrille/version.hpp>
 
 #include "app/exit_code.hpp"
+#include "app/scene_catalog.hpp"
+#include "app/standard_streams.hpp"
+#include "system/whole_file.hpp"
 
 namespace quadrille::app {
 
@@ -277,11 +282,18 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.footer(
         "Results go to stdout, messages to stderr.\n"
         "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 bad scene or snapshot, 4 no such "
-        "device.");
+        "device, 128 + N ended by signal N.");
 }
 
-/// Two outputs would write over each other under one name.
-void refuseSharedOutputs(const Options& options) {
+/// Whether an output would take the place of another file, or mix with it. Devices take anything.
+bool collide(const std::string& output, const std::string& other) {
+    if (output.empty() || other.empty() || output == "-" || other == "-") return false;
+    std::error_code error;
+    return sameFile(output, other) && !std::filesystem::is_character_file(output, error);
+}
+
+/// Two outputs would write over each other, under one name or two, and an output over an input.
+void refuseSharedFiles(const Options& options) {
     const std::array<std::pair<const char*, const std::string*>, 6> outputs = {{
         {"--json", &options.json},
         {"--csv", &options.csv},
@@ -290,12 +302,20 @@ void refuseSharedOutputs(const Options& options) {
         {"--save", &options.save},
         {"--screenshot", &options.window.screenshot},
     }};
+    const auto refuse = [](const char* first, const char* second) {
+        throw UsageError(std::string(first) + " and " + second + " name the same file");
+    };
     for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const auto& [option, file] = outputs[i];
         for (std::size_t j = 0; j < i; ++j) {
-            if (outputs[i].second->empty() || *outputs[i].second == "-") continue;
-            if (*outputs[i].second != *outputs[j].second) continue;
-            throw UsageError(std::string(outputs[j].first) + " and " + outputs[i].first +
-                             " name the same file");
+            if (collide(*file, *outputs[j].second)) refuse(outputs[j].first, option);
+        }
+        if (isScenePath(options.scene) && collide(*file, options.scene)) refuse("--scene", option);
+        // A run may go on from a snapshot and leave the next one in its place.
+        if (file != &options.save && collide(*file, options.load)) refuse("--load", option);
+        if (*file != "-" && isStandardStream(*file)) {
+            throw UsageError(std::string(option) + ": " + *file +
+                             " is where stdout or stderr goes; '-' is stdout");
         }
     }
 }
@@ -319,7 +339,7 @@ void interpret(Options& options, const RawOptions& raw) {
         onStdout += *file == "-";
     }
     if (onStdout > 1) throw UsageError("only one output can go to stdout ('-')");
-    refuseSharedOutputs(options);
+    refuseSharedFiles(options);
     if (options.save == "-") throw UsageError("--save: a snapshot cannot go to stdout");
     if (options.window.screenshot == "-") {
         throw UsageError("--screenshot: a picture cannot go to stdout");

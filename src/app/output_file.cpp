@@ -3,9 +3,6 @@
 #include <array>
 #include <charconv>
 #include <iostream>
-#include <system_error>
-
-#include <quadrille/error.hpp>
 
 #include "app/standard_streams.hpp"
 
@@ -22,48 +19,22 @@ std::string shortest(Real value) {
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& name) : name_(name) {
-    if (name_ == "-") {
+OutputFile::OutputFile(const std::string& name) {
+    if (name == "-") {
         requireStdout();
-        return;
-    }
-    namespace fs = std::filesystem;
-    std::error_code error;
-    const fs::file_status status = fs::status(name_, error);
-    if (fs::is_directory(status)) throw Error(name_ + ": is a folder");
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-        file_.open(name_, std::ios::binary);
     } else {
-        target_ = name_;
-        if (fs::is_symlink(target_, error) && fs::exists(status)) target_ = fs::canonical(target_);
-        temporary_ = target_;
-        temporary_ += ".part";
-        file_.open(temporary_, std::ios::binary);
+        file_.emplace(name, WholeFile::Special::WriteTo);
     }
-    if (!file_) throw Error(name_ + ": cannot be written");
 }
 
-OutputFile::~OutputFile() {
-    if (committed_ || temporary_.empty()) return;
-    file_.close();
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
-}
-
-std::ostream& OutputFile::stream() { return name_ == "-" ? std::cout : file_; }
+std::ostream& OutputFile::stream() { return file_ ? file_->stream() : std::cout; }
 
 void OutputFile::commit() {
-    if (name_ == "-") {
+    if (file_) {
+        file_->commit();
+    } else {
         finishStdout();
-        return;
     }
-    file_.close();
-    if (!file_) throw Error(name_ + ": cannot be written");
-    if (temporary_.empty()) return;
-    std::error_code error;
-    std::filesystem::rename(temporary_, target_, error);
-    if (error) throw Error(name_ + ": " + error.message());
-    committed_ = true;
 }
 
 std::string exact(double value) { return shortest(value); }

@@ -1,22 +1,19 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
+#include <optional>
 #include <ostream>
 #include <string>
 
+#include "system/whole_file.hpp"
+
 namespace quadrille::app {
 
-/// A result file that appears whole or not at all: it grows under another name beside the target
-/// and takes the target's name at `commit`. The name "-" is stdout. A link stays, and its target is
-/// replaced; a device or a pipe is never replaced but written to.
+/// A result file that appears whole or not at all (system/whole_file.hpp); the name "-" is stdout.
+/// A device or a pipe is never replaced but written to.
 class OutputFile {
   public:
     /// Throws Error if it cannot be written.
     explicit OutputFile(const std::string& name);
-    ~OutputFile();
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
 
     std::ostream& stream();
 
@@ -24,10 +21,7 @@ class OutputFile {
     void commit();
 
   private:
-    std::string name_;
-    std::filesystem::path target_, temporary_;  // empty if nothing is to be renamed
-    std::ofstream file_;
-    bool committed_ = false;
+    std::optional<WholeFile> file_;  // absent for stdout
 };
 
 /// The shortest text that reads back as the same number.

@@ -1,26 +1,19 @@
 #include "app/run_session.hpp"
 
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 #include "app/error_summary.hpp"
+#include "app/exit_code.hpp"
+#include "app/interrupt.hpp"
 
 namespace quadrille::app {
 
 namespace {
 
 /// A snapshot is opened at the end of the run, too late to say that it cannot be.
-void requireWritable(const std::string& snapshot) {
-    std::error_code error;
-    const auto status = std::filesystem::status(snapshot, error);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw Error(snapshot + ": is not a file that a snapshot can replace");
-    }
-    const OutputFile probe(snapshot);
-}
+void requireWritable(const std::string& snapshot) { const WholeFile probe(snapshot); }
 
 }  // namespace
 
@@ -67,8 +60,11 @@ bool RunSession::timeIsUp() const {
     return elapsed.count() >= *options_.duration;
 }
 
-void RunSession::finish() {
+int RunSession::finish() {
+    // A signal that comes later than the last frame interrupts nothing.
+    const int signal = allFramesDone() || timeIsUp() ? 0 : interruptedBy();
     auto summary = summaryJson(run_, statistics_, start_);
+    summary["interrupted"] = signal != 0;
     // A window always measures the phases, for its panels.
     if (!options_.profile) summary["phases_ms"] = nullptr;
     std::ostream& words = wordsOf(options_);
@@ -90,6 +86,7 @@ void RunSession::finish() {
         json_->stream() << summary.dump(2) << '\n';
         json_->commit();
     }
+    return signal != 0 ? interruptedBySignal + signal : done;
 }
 
 }  // namespace quadrille::app

@@ -43,8 +43,8 @@ class RunSession {
     /// Whether --duration does.
     bool timeIsUp() const;
 
-    /// Prints the summary and writes every output.
-    void finish();
+    /// Prints the summary and writes every output. Returns the program's exit code.
+    int finish();
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -34,9 +34,13 @@ std::vector<std::string> sceneNames() {
     return names;
 }
 
-fs::path findScene(const std::string& nameOrFile) {
+bool isScenePath(const std::string& nameOrFile) {
     const fs::path path(nameOrFile);
-    if (path.has_parent_path() || path.extension() == ".toml") return path;
+    return path.has_parent_path() || path.extension() == ".toml";
+}
+
+fs::path findScene(const std::string& nameOrFile) {
+    if (isScenePath(nameOrFile)) return nameOrFile;
     const auto names = sceneNames();
     if (std::find(names.begin(), names.end(), nameOrFile) != names.end()) {
         return sceneFolder() / (nameOrFile + ".toml");

@@ -9,6 +9,9 @@ namespace quadrille::app {
 /// The scene files that come with the program, by name.
 std::vector<std::string> sceneNames();
 
+/// Whether this is the path of a file and not a name.
+bool isScenePath(const std::string& nameOrFile);
+
 /// The file of a shipped scene, or of a path. Throws UsageError, listing the valid names, if it is
 /// neither a name nor something that looks like a path.
 std::filesystem::path findScene(const std::string& nameOrFile);

@@ -1,36 +1,13 @@
 #include "core/snapshot_stream.hpp"
 
 #include <cstring>
-#include <system_error>
+#include <fstream>
 
 namespace quadrille {
 
-SnapshotWriter::SnapshotWriter(const std::filesystem::path& target) : target_(target) {
-    std::error_code error;
-    const auto status = std::filesystem::status(target_, error);
-    if (std::filesystem::exists(status)) {
-        // A rename would put a plain file in the place of a folder, a device or a pipe.
-        if (!std::filesystem::is_regular_file(status)) {
-            throw Error(target_.string() + ": is not a file that a snapshot can replace");
-        }
-        target_ = std::filesystem::canonical(target_);  // a link stays
-    }
-    temporary_ = target_;
-    temporary_ += ".part";
-    out_.open(temporary_, std::ios::binary);
-    if (!out_) throw Error(target_.string() + ": cannot be written");
-}
-
-SnapshotWriter::~SnapshotWriter() {
-    if (committed_) return;
-    out_.close();
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
-}
-
 void SnapshotWriter::write(const void* data, std::size_t size) {
     checksum_.add(data, size);
-    out_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    out_.stream().write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
 }
 
 void SnapshotWriter::text(const std::string& value) {
@@ -40,13 +17,8 @@ void SnapshotWriter::text(const std::string& value) {
 
 void SnapshotWriter::commit() {
     const std::uint64_t sum = checksum_.value();
-    out_.write(reinterpret_cast<const char*>(&sum), sizeof sum);
-    out_.close();
-    if (!out_) throw Error(target_.string() + ": cannot be written");
-    std::error_code error;
-    std::filesystem::rename(temporary_, target_, error);
-    if (error) throw Error(target_.string() + ": " + error.message());
-    committed_ = true;
+    out_.stream().write(reinterpret_cast<const char*>(&sum), sizeof sum);
+    out_.commit();
 }
 
 SnapshotReader::SnapshotReader(const std::filesystem::path& file) : file_(file.string()) {

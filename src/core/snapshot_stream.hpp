@@ -3,7 +3,6 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <quadrille/error.hpp>
 
 #include "collision/rules/bodies.hpp"
+#include "system/whole_file.hpp"
 
 namespace quadrille {
 
@@ -36,14 +36,11 @@ template <class T>
 concept PlainRow = PlainNumber<T> || std::same_as<T, BodyRef> || std::same_as<T, Anchor<double>> ||
     std::same_as<T, Anchor<float>>;
 
-/// Writes numbers in the machine's byte order, which the snapshot's header names. The data go to a
-/// file beside the target, which takes the target's name when it is complete.
+/// Writes numbers in the machine's byte order, which the snapshot's header names. The file
+/// appears whole or not at all.
 class SnapshotWriter {
   public:
-    explicit SnapshotWriter(const std::filesystem::path& target);
-    ~SnapshotWriter();
-    SnapshotWriter(const SnapshotWriter&) = delete;
-    SnapshotWriter& operator=(const SnapshotWriter&) = delete;
+    explicit SnapshotWriter(const std::filesystem::path& target) : out_(target) {}
 
     void write(const void* data, std::size_t size);
     template <PlainNumber T>
@@ -61,10 +58,8 @@ class SnapshotWriter {
     void commit();
 
   private:
-    std::filesystem::path target_, temporary_;
-    std::ofstream out_;
+    WholeFile out_;
     Checksum checksum_;
-    bool committed_ = false;
 };
 
 /// Reads what SnapshotWriter wrote; throws SnapshotError where the data end too early.

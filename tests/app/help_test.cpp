@@ -38,7 +38,7 @@ TEST(Help, NamesTheValuesOfEnumeratedOptions) {
 TEST(Help, ExplainsTheExitCodes) {
     const std::string help = runProgram({"--help"}).out;
     for (const char* text :
-         {"0 done", "1 run-time failure", "2 usage", "3 bad scene", "4 no such"}) {
+         {"0 done", "1 run-time failure", "2 usage", "3 bad scene", "4 no such", "128 + N"}) {
         EXPECT_TRUE(contains(help, text)) << text;
     }
 }

@@ -5,9 +5,11 @@
 #include <csignal>
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace quadrille {
 
@@ -38,6 +40,12 @@ Process::Process(const std::string& program, const std::vector<std::string>& arg
     child_ = fork();
     if (child_ < 0) fail("fork");
     if (child_ == 0) {
+        // Whatever the test runs under: a shell's background job ignores some of them.
+        for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
+            std::signal(signal, SIG_DFL);
+        }
+        const rlimit none{};
+        setrlimit(RLIMIT_CORE, &none);  // some tests end it by a signal that dumps one
         const int in = open("/dev/null", O_RDONLY);
         const bool ready = dup2(in, STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0 &&
                            dup2(err[1], STDERR_FILENO) >= 0;
@@ -69,6 +77,10 @@ bool Process::waitUntil(const std::function<bool()>& condition, Seconds timeout)
 
 void Process::sendSignal(int signal) const {
     if (child_ > 0 && kill(child_, signal) != 0) fail("kill");
+}
+
+void Process::closeOut() {
+    if (pipes_[0] >= 0) close(std::exchange(pipes_[0], -1));
 }
 
 ProcessResult Process::finish(Seconds timeout) {

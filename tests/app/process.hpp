@@ -37,6 +37,9 @@ class Process {
 
     void sendSignal(int signal) const;
 
+    /// Nobody reads its stdout any more.
+    void closeOut();
+
     /// Waits for the end. Kills the program if it takes longer than that.
     ProcessResult finish(Seconds timeout = patience);
 

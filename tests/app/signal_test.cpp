@@ -1,8 +1,13 @@
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
 #include "program.hpp"
@@ -27,7 +32,7 @@ TEST_P(Signal, EndsTheRunAndWritesWhatWasAskedFor) {
     EXPECT_FALSE(std::filesystem::exists(path("run.json")));
     process.sendSignal(GetParam());
     const ProcessResult result = process.finish();
-    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.exitCode, 128 + GetParam());
     EXPECT_FALSE(result.timedOut);
     EXPECT_EQ(result.err, "");
     EXPECT_TRUE(contains(result.out, "summary"));
@@ -37,6 +42,7 @@ TEST_P(Signal, EndsTheRunAndWritesWhatWasAskedFor) {
 
     const Json summary = Json::parse(contentOf(path("run.json")));
     ASSERT_GT(summary["frames"], 0);
+    EXPECT_EQ(summary["interrupted"], true);
     const Table frames = parseTable(contentOf(path("frames.csv")));
     ASSERT_EQ(frames.rows.size(), summary["frames"]);
     EXPECT_EQ(frames.rows.back().size(), frames.columns.size());
@@ -54,16 +60,56 @@ TEST_P(Signal, IsHeededWhileDataGoesToStdout) {
     ASSERT_TRUE(process.waitUntil([&] { return contains(process.err(), "ms/frame"); }));
     process.sendSignal(GetParam());
     const ProcessResult result = process.finish();
-    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.exitCode, 128 + GetParam());
     EXPECT_TRUE(contains(result.err, "summary"));
     const Json summary = Json::parse(result.out, nullptr, false);
     ASSERT_TRUE(summary.is_object()) << result.out;
     EXPECT_GT(summary["frames"], 0);
+    EXPECT_EQ(summary["interrupted"], true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, Signal, testing::Values(SIGINT, SIGTERM), [](const auto& test) {
-    return test.param == SIGINT ? "interrupt" : "terminate";
-});
+/// As nohup has it for SIGHUP, and a shell without jobs for the SIGINT of what runs behind it.
+TEST_P(Signal, StaysIgnoredIfItWas) {
+    const std::string number = std::to_string(GetParam());
+    Process process(
+        "/bin/sh", Arguments{"-c", "trap '' " + number + "; exec \"$@\"", "sh", QUADRILLE_PROGRAM} +
+                       endlessRun({"--json", file("run.json"), "--frames", "300"}));
+    ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
+    process.sendSignal(GetParam());
+    EXPECT_EQ(process.finish().exitCode, 0);
+    const Json summary = Json::parse(contentOf(path("run.json")));
+    EXPECT_EQ(summary["frames"], 300);
+    EXPECT_EQ(summary["interrupted"], false);
+}
+
+INSTANTIATE_TEST_SUITE_P(Run, Signal, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& test) {
+                             return test.param == SIGINT    ? "interrupt"
+                                    : test.param == SIGTERM ? "terminate"
+                                                            : "hangup";
+                         });
+
+class DeadlySignal : public ProgramTest, public testing::WithParamInterface<int> {};
+
+/// Everything there is grows in the folder, and nothing of it stays; what was there does.
+TEST_P(DeadlySignal, LeavesNothingUnfinished) {
+    write("run.json", "old");
+    Process process(QUADRILLE_PROGRAM,
+                    endlessRun({"--json", file("run.json"), "--csv", file("frames.csv"),
+                                "--dump-state", file("state.csv"), "--dump-events",
+                                file("events.csv"), "--save", file("snapshot")}));
+    ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
+    EXPECT_EQ(files().size(), 5u);
+    process.sendSignal(GetParam());
+    EXPECT_EQ(process.finish().exitCode, 128 + GetParam());
+    EXPECT_EQ(files(), std::vector<std::string>{"run.json"});
+    EXPECT_EQ(contentOf(path("run.json")), "old");
+}
+
+INSTANTIATE_TEST_SUITE_P(Run, DeadlySignal,
+                         testing::Values(SIGPIPE, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU,
+                                         SIGABRT),
+                         testing::PrintToStringParamName());
 
 class LongRun : public ProgramTest {};
 
@@ -74,9 +120,64 @@ TEST_F(LongRun, KeepsOldResultsUntilItsEnd) {
     ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
     EXPECT_EQ(contentOf(path("frames.csv")), "old");
     process.sendSignal(SIGINT);
-    EXPECT_EQ(process.finish().exitCode, 0);
+    EXPECT_EQ(process.finish().exitCode, 128 + SIGINT);
     EXPECT_TRUE(contains(contentOf(path("frames.csv")), "frame,"));
     EXPECT_EQ(files(), std::vector<std::string>{"frames.csv"});
+}
+
+/// A reader that stops reading holds the run up in the middle of a frame, where the first signal
+/// cannot end it.
+TEST_F(LongRun, EndsAtOnceAtTheSecondSignal) {
+    ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
+    const int reader = open(file("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    Process process(QUADRILLE_PROGRAM, endlessRun({"--csv", file("pipe"), "--json", file("json"),
+                                                   "--dump-state", file("state")}));
+    ASSERT_TRUE(process.waitUntil([&] {
+        int bytes = 0;
+        return ioctl(reader, FIONREAD, &bytes) == 0 && bytes >= 1 << 16;
+    }));
+    EXPECT_EQ(files().size(), 3u);
+    process.sendSignal(SIGINT);
+    process.sendSignal(SIGTERM);
+    EXPECT_EQ(process.finish().exitCode, 128 + SIGTERM);
+    EXPECT_EQ(files(), std::vector<std::string>{"pipe"});
+    close(reader);
+}
+
+TEST_F(LongRun, EndsWhenNobodyReadsItsWords) {
+    Process process(QUADRILLE_PROGRAM,
+                    endlessRun({"--json", file("json"), "--csv", file("frames.csv")}));
+    ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
+    process.closeOut();
+    EXPECT_EQ(process.finish().exitCode, 128 + SIGPIPE);
+    EXPECT_TRUE(files().empty());
+}
+
+/// Where that signal is ignored, the words that are lost are a failure, and the results are whole.
+TEST_F(LongRun, SaysThatItsWordsWereLost) {
+    Process process("/bin/sh",
+                    Arguments{"-c", "trap '' PIPE; exec \"$@\"", "sh", QUADRILLE_PROGRAM} +
+                        endlessRun({"--json", file("json"), "--frames", "300"}));
+    process.closeOut();
+    const ProcessResult result = process.finish();
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(contains(result.err, "stdout: cannot be written")) << result.err;
+    EXPECT_EQ(Json::parse(contentOf(path("json")))["frames"], 300);
+}
+
+/// Nothing can be done about this one; what it leaves says what it is.
+TEST_F(LongRun, LeavesNoMoreThanATemporaryFileWhenItIsKilled) {
+    write("frames.csv", "old");
+    Process process(QUADRILLE_PROGRAM, endlessRun({"--csv", file("frames.csv")}));
+    ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
+    process.sendSignal(SIGKILL);
+    EXPECT_EQ(process.finish().exitCode, 128 + SIGKILL);
+    EXPECT_EQ(contentOf(path("frames.csv")), "old");
+    const std::vector<std::string> left = files();
+    ASSERT_EQ(left.size(), 2u);
+    EXPECT_TRUE(std::regex_match(left[1], std::regex("frames\\.csv\\.[0-9a-f]{16}\\.part")))
+        << left[1];
 }
 
 }  // namespace

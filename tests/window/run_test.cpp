@@ -101,9 +101,9 @@ TEST_P(WindowSignal, EndsItCleanly) {
     ASSERT_TRUE(titleHas("step")) << program_->err();
     program_->sendSignal(GetParam());
     const ProcessResult result = program_->finish();
-    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.exitCode, 128 + GetParam());
     EXPECT_EQ(result.err, "");
-    EXPECT_TRUE(Json::parse(contentOf(path("run.json"))).contains("state_hash"));
+    EXPECT_EQ(Json::parse(contentOf(path("run.json")))["interrupted"], true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Run, WindowSignal, testing::Values(SIGINT, SIGTERM), [](const auto& test) {

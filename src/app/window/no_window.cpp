@@ -4,6 +4,6 @@
 
 namespace quadrille::app {
 
-void runWindow(const Options&) { throw Error("this build has no window; use --headless"); }
+int runWindow(const Options&) { throw Error("this build has no window; use --headless"); }
 
 }  // namespace quadrille::app

@@ -43,7 +43,7 @@ constexpr double pageZoom = 1.25;
 class WindowRun {
   public:
     explicit WindowRun(const Options& options);
-    void loop();
+    int loop();
 
   private:
     void takeEvents();
@@ -98,7 +98,8 @@ WindowRun::WindowRun(const Options& options)
         .width = size_.pixelWidth, .height = size_.pixelHeight, .renderer = window_.renderer()};
 }
 
-void WindowRun::loop() {
+int WindowRun::loop() {
+    catchInterrupts();
     pictureStart_ = Clock::now();
     while (true) {
         const double elapsed = secondsSince(pictureStart_);
@@ -110,12 +111,12 @@ void WindowRun::loop() {
         bench_.advance(elapsed);
         const RunSession& session = bench_.session();
         const bool last =
-            view_.quit || interrupted() || session.allFramesDone() || session.timeIsUp();
+            view_.quit || interruptedBy() != 0 || session.allFramesDone() || session.timeIsUp();
         showPicture(last);
         if (last) break;
         wait();
     }
-    bench_.session().finish();
+    return bench_.session().finish();
 }
 
 void WindowRun::wait() {
@@ -288,9 +289,9 @@ void WindowRun::updateTitle() {
 
 }  // namespace
 
-void runWindow(const Options& options) {
+int runWindow(const Options& options) {
     WindowRun run(options);
-    run.loop();
+    return run.loop();
 }
 
 }  // namespace quadrille::app

@@ -4,9 +4,9 @@
 
 namespace quadrille::app {
 
-/// Runs in a window until the options, its close button or Ctrl-C end it, and writes what was asked
-/// for. Throws Error, with a hint at --headless, where no window can be opened or this build has
-/// none.
-void runWindow(const Options& options);
+/// Runs in a window until the options, its close button or a signal end it, and writes what was
+/// asked for. Returns the exit code of the program. Throws Error, with a hint at --headless, where
+/// no window can be opened or this build has none.
+int runWindow(const Options& options);
 
 }  // namespace quadrille::app
