@@ -10,6 +10,7 @@
 
 #include "core/instances.hpp"
 #include "core/scene_table.hpp"
+#include "core/scene_text.hpp"
 #include "core/spawn.hpp"
 
 namespace quadrille {
@@ -159,12 +160,12 @@ void readInstance(SceneTable table, const std::filesystem::path& folder, SceneDe
 
 SceneDescription readDescription(const std::filesystem::path& path) {
     const std::string file = path.string();
+    const std::string text = readSceneText(path);
     toml::table document;
     try {
-        document = toml::parse_file(file);
+        document = toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const auto& where = error.source().begin;
-        if (where.line == 0) throw SceneError(file + ": cannot be opened");
         throw SceneError(file + ":" + std::to_string(where.line) + ":" +
                          std::to_string(where.column) + ": " + std::string(error.description()));
     }
