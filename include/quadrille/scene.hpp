@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,9 @@ struct SceneOptions {
     std::optional<std::uint64_t> entities = {};  ///< replaces the count of the first spawn group
     std::optional<std::uint64_t> seed = {};      ///< replaces the scene's
     bool renderers = false;                      ///< give the bodies a RectangleRenderer
+    /// Told how many moving bodies there will be, at least, before memory is taken for them, and
+    /// the law that the scene names; what it throws ends the loading.
+    std::function<void(std::uint64_t movingBodies, std::optional<Law> law)> announce = {};
 };
 
 /// A scene that is ready to run.

@@ -7,7 +7,9 @@
 
 #include <quadrille/names.hpp>
 
+#include "app/memory_need.hpp"
 #include "app/scene_catalog.hpp"
+#include "system/memory.hpp"
 
 namespace quadrille::app {
 
@@ -63,6 +65,12 @@ void explain(std::ostream& out, const Run& run, bool window) {
             "  %.1f bytes a body in the world, %.1f in work space before the first step\n",
             double(world.bytes()) / double(world.movingCount()),
             double(simulation.workspaceBytes()) / double(world.movingCount()));
+        out << line.data();
+        const std::uint64_t need = memoryNeed(config, world.movingCount(), window);
+        std::snprintf(line.data(), line.size(),
+                      "  about %.0f bytes a body once it runs, more in a crowd: %s of %s\n",
+                      double(need) / double(world.movingCount()), inUnits(need).c_str(),
+                      inUnits(memoryOfMachine()).c_str());
         out << line.data();
     }
 }

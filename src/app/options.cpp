@@ -252,6 +252,9 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_flag("--profile", options.profile, "Measure the phases of a frame")->group("Run");
     app.add_flag("--error", options.error, "Measure the error against the event-driven reference")
         ->group("Run");
+    app.add_flag("--force-memory", options.forceMemory,
+                 "Run even what needs more memory than there is")
+        ->group("Run");
 
     app.add_option("--json", options.json, "Write the run's summary ('-' is stdout)")
         ->check(fileName)

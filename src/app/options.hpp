@@ -38,6 +38,7 @@ struct Options {
     bool explain = false;
     bool profile = false;
     bool error = false;
+    bool forceMemory = false;
     std::optional<std::uint64_t> frames;
     std::optional<double> duration;  ///< wall s
     double reportEvery = 5;          ///< wall s

@@ -1,10 +1,15 @@
 #include "app/run_setup.hpp"
 
+#include <cmath>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include <quadrille/names.hpp>
 
+#include "app/memory_need.hpp"
 #include "app/scene_catalog.hpp"
 
 namespace quadrille::app {
@@ -13,6 +18,7 @@ namespace {
 
 /// Where a run starts, be it a scene or a snapshot.
 struct Start {
+    std::string file;  ///< for messages
     std::string scene;
     std::uint64_t seed;
     World world;
@@ -21,24 +27,37 @@ struct Start {
     std::uint64_t stepsDone = 0;
 };
 
+/// Of scenes that name none.
+constexpr Law lawOfScenes = Law::Impulse;
+
 Start loadStart(const Options& options) {
     if (!options.load.empty()) {
         Snapshot snapshot = loadSnapshot(options.load);
-        return {.scene = std::move(snapshot.scene),
+        requireMemory<SnapshotError>(options, options.load, snapshot.world.movingCount(),
+                                     snapshot.law, snapshot.world.precision());
+        return {.file = options.load,
+                .scene = std::move(snapshot.scene),
                 .seed = snapshot.seed,
                 .world = std::move(snapshot.world),
                 .step = snapshot.step,
                 .law = snapshot.law,
                 .stepsDone = snapshot.stepsDone};
     }
-    Scene scene = loadScene(
-        findScene(options.scene),
-        {.entities = options.entities, .seed = options.seed, .renderers = !options.headless});
-    return {.scene = std::move(scene.name),
+    const std::filesystem::path file = findScene(options.scene);
+    Scene scene =
+        loadScene(file, {.entities = options.entities,
+                         .seed = options.seed,
+                         .renderers = !options.headless,
+                         .announce = [&](std::uint64_t movingBodies, std::optional<Law> law) {
+                             requireMemory<SceneError>(options, file.string(), movingBodies,
+                                                       law.value_or(lawOfScenes));
+                         }});
+    return {.file = file.string(),
+            .scene = std::move(scene.name),
             .seed = scene.seed,
             .world = std::move(scene.world),
             .step = scene.step,
-            .law = scene.law.value_or(Law::Impulse)};
+            .law = scene.law.value_or(lawOfScenes)};
 }
 
 /// The resolver that is asked for, or the sequential one where the law does not run on it.
@@ -50,6 +69,35 @@ ResolverKind runnable(ResolverKind wanted, Law law, bool fallback) {
     std::cerr << "collisionStress: warning: " << reason << "; running '"
               << name(ResolverKind::Sequential) << "'\n";
     return ResolverKind::Sequential;
+}
+
+/// Single precision may be too narrow for a scene, and that is not known before it is loaded.
+void narrow(Start& start, const Options& options, const SimulationConfig& config) {
+    if (config.precision != Precision::Float) return;
+    const auto dt = static_cast<float>(config.step.dt);
+    if (!(std::isfinite(dt) && dt > 0)) {
+        if (options.dt) throw UsageError("--dt: does not fit single precision");
+        throw SceneError(start.file + ": step.dt: does not fit single precision");
+    }
+    if (!config.step.gravity.cast<float>().allFinite()) {
+        throw SceneError(start.file + ": step.gravity: does not fit single precision");
+    }
+    try {
+        start.world.setPrecision(config.precision);
+    } catch (const Error& error) {
+        throw SceneError(start.file + ": " + error.what());
+    }
+}
+
+/// Cells may be too many for a world, and its size is not known before it is loaded.
+void requireGrid(const Options& options, const World& world) {
+    const auto* grid = std::get_if<StaticGrid>(&options.partitioner);
+    if (grid == nullptr) return;
+    try {
+        const Simulation empty(World(world.config()), {.partitioner = *grid});
+    } catch (const Error& error) {
+        throw UsageError(std::string("--cell-size: ") + error.what());
+    }
 }
 
 /// With --error, all pairs of scenes up to this size are compared in every frame, and in one of ten
@@ -86,6 +134,8 @@ Run setUp(const Options& options) {
     if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {
         config.missedPairsEvery = 10;
     }
+    requireGrid(options, start.world);
+    narrow(start, options, config);
     config.cuda = options.cuda;
     config.fallback = options.fallback;
     Run run{.scene = std::move(start.scene),

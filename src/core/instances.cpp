@@ -1,12 +1,15 @@
 #include "core/instances.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <string_view>
 
 #include <quadrille/error.hpp>
+
+#include "system/input_file.hpp"
+#include "system/memory.hpp"
 
 namespace quadrille {
 
@@ -29,8 +32,6 @@ class InstanceReader {
         }
         if (columns_ == 0) fail(1, 1, "the header must be x,y,vx,vy[,w,h[,mass]]");
     }
-
-    bool hasHeader() const { return columns_ > 0; }
 
     Instance readRow(std::string_view line, std::size_t lineNumber) const {
         std::array<double, 7> values{};
@@ -73,22 +74,36 @@ class InstanceReader {
 
 }  // namespace
 
-std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults) {
-    std::ifstream in(file);
-    if (!in) throw SceneError(file.string() + ": cannot be opened");
+std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults,
+                                    const std::function<void(std::uint64_t)>& announce) {
+    std::string text;
+    try {
+        text = readRegularFile(file, memoryOfMachine());
+    } catch (const Error& error) {
+        throw SceneError(file.string() + ": " + error.what());
+    }
+    dropByteOrderMark(text);
+    const auto lines = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+    if (lines > mostBodies + 2) {  // a header, and nothing behind the last line break
+        throw SceneError(file.string() + ": has more than " + std::to_string(mostBodies) + " rows");
+    }
+    announce(lines - 1);
+
     InstanceReader reader(file.string(), defaults);
     std::vector<Instance> result;
-    std::string line;
-    for (std::size_t number = 1; std::getline(in, line); ++number) {
-        if (!line.empty() && line.back() == '\r') line.pop_back();
+    result.reserve(lines - 1);
+    std::string_view rest = text;
+    for (std::size_t number = 1; number == 1 || !rest.empty(); ++number) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (line.ends_with('\r')) line.remove_suffix(1);
         if (number == 1) {
             reader.readHeader(line);
         } else if (!line.empty()) {
             result.push_back(reader.readRow(line, number));
         }
     }
-    if (in.bad()) throw SceneError(file.string() + ": cannot be read");
-    if (!reader.hasHeader()) reader.readHeader("");
     return result;
 }
 

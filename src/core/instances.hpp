@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,13 @@ struct Instance {
     double mass = 1;
 };
 
+/// Of a spawn group or an instance file.
+inline constexpr std::uint64_t mostBodies = 50'000'000;
+
 /// Reads a CSV file with the header x,y,vx,vy[,w,h[,mass]]; rows without w,h or mass take those of
-/// `defaults`. Throws SceneError, naming file, line and column, for anything else.
-std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults);
+/// `defaults`. Throws SceneError, naming file, line and column, for anything else. `announce` is
+/// told the number of rows, at most, before memory is taken for them, and may throw.
+std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults,
+                                    const std::function<void(std::uint64_t)>& announce);
 
 }  // namespace quadrille

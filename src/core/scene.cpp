@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -17,15 +18,19 @@ namespace quadrille {
 
 namespace {
 
-constexpr std::int64_t mostBodies = 50'000'000;
-
-/// A body that the scene spells out, or all rows of an instance file.
+/// A body that the scene spells out.
 struct PlacedBody {
     Transform transform;
     BoxCollider collider;
     PhysicsBody body;
     Color color{};
     std::string name;
+};
+
+/// The rows of an instance file.
+struct InstanceGroup {
+    std::vector<Instance> rows;
+    Color color{};
 };
 
 /// What a scene file says, before the world is made.
@@ -40,7 +45,10 @@ struct SceneDescription {
     std::optional<Law> law;
     std::vector<SpawnGroup> spawns;
     std::vector<PlacedBody> bodies;
+    std::vector<InstanceGroup> instances;
 };
+
+using Announce = std::function<void(std::uint64_t, std::optional<Law>)>;
 
 Color colorOf(SceneTable& table) { return table.color("color").value_or(Color{}); }
 
@@ -91,8 +99,8 @@ void readSpawn(SceneTable table, SceneDescription& scene) {
     }
     group.pattern =
         pattern == "lattice" ? SpawnGroup::Pattern::Lattice : SpawnGroup::Pattern::Uniform;
-    group.count =
-        static_cast<std::uint64_t>(table.require("count", table.integer("count", 0, mostBodies)));
+    group.count = static_cast<std::uint64_t>(
+        table.require("count", table.integer("count", 0, std::int64_t(mostBodies))));
     group.region = table.region("region");
 
     const auto size = table.positiveVector("size");
@@ -117,6 +125,7 @@ void readSpawn(SceneTable table, SceneDescription& scene) {
     const auto jitter = table.number("jitter");
     if (jitter && pattern != "lattice") table.fail("jitter", "goes with the lattice only");
     if (jitter && *jitter < 0) table.fail("jitter", "must not be negative");
+    if (jitter && !std::isfinite(2 * *jitter)) table.fail("jitter", "is too large");
     group.jitter = jitter.value_or(0);
     group.color = colorOf(table);
     table.finish();
@@ -142,23 +151,23 @@ void readBody(SceneTable table, SceneDescription& scene) {
     scene.bodies.push_back(std::move(placed));
 }
 
-void readInstance(SceneTable table, const std::filesystem::path& folder, SceneDescription& scene) {
+void readInstance(SceneTable table, const std::filesystem::path& folder, const Announce& announce,
+                  SceneDescription& scene) {
     const auto file = table.require("file", table.string("file"));
     Instance defaults;
     defaults.size = table.positiveVector("size").value_or(defaults.size);
     defaults.mass = table.positive("mass").value_or(defaults.mass);
     const Color color = colorOf(table);
     table.finish();
-    for (const Instance& row : readInstances(folder / file, defaults)) {
-        scene.bodies.push_back({.transform = {row.position},
-                                .collider = {row.size},
-                                .body = {.velocity = row.velocity, .mass = row.mass},
-                                .color = color,
-                                .name = {}});
-    }
+    std::uint64_t before = 0;
+    for (const InstanceGroup& group : scene.instances) before += group.rows.size();
+    const auto announceRows = [&](std::uint64_t rows) {
+        if (announce) announce(before + rows, scene.law);
+    };
+    scene.instances.push_back({readInstances(folder / file, defaults, announceRows), color});
 }
 
-SceneDescription readDescription(const std::filesystem::path& path) {
+SceneDescription readDescription(const std::filesystem::path& path, const Announce& announce) {
     const std::string file = path.string();
     const std::string text = readSceneText(path);
     toml::table document;
@@ -179,7 +188,9 @@ SceneDescription readDescription(const std::filesystem::path& path) {
     if (auto step = root.table("step")) readStep(*step, scene);
     for (auto& table : root.tables("spawn")) readSpawn(table, scene);
     for (auto& table : root.tables("body")) readBody(table, scene);
-    for (auto& table : root.tables("instance")) readInstance(table, path.parent_path(), scene);
+    for (auto& table : root.tables("instance")) {
+        readInstance(table, path.parent_path(), announce, scene);
+    }
     root.finish();
     return scene;
 }
@@ -187,13 +198,13 @@ SceneDescription readDescription(const std::filesystem::path& path) {
 }  // namespace
 
 Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) {
-    SceneDescription description = readDescription(file);
+    SceneDescription description = readDescription(file, options.announce);
     const auto fail = [&](const std::string& reason) {
         throw SceneError(file.string() + ": " + reason);
     };
     if (options.entities) {
         if (description.spawns.empty()) fail("has no spawn group whose count could be set");
-        if (*options.entities > static_cast<std::uint64_t>(mostBodies)) {
+        if (*options.entities > mostBodies) {
             fail("a spawn group has at most " + std::to_string(mostBodies) + " bodies");
         }
         description.spawns.front().count = *options.entities;
@@ -201,6 +212,8 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
     std::uint64_t moving = 0;
     for (const SpawnGroup& group : description.spawns) moving += group.count;
     for (const PlacedBody& body : description.bodies) moving += !body.body.isStatic;
+    for (const InstanceGroup& group : description.instances) moving += group.rows.size();
+    if (options.announce) options.announce(moving, description.law);
 
     WorldConfig config;
     config.seed = options.seed.value_or(description.seed);
@@ -232,6 +245,12 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
             const Entity entity =
                 maker.make(placed.transform, placed.collider, placed.body, placed.color);
             if (!placed.name.empty()) world.add(entity, Name{placed.name});
+        }
+        for (const InstanceGroup& group : description.instances) {
+            for (const Instance& row : group.rows) {
+                maker.make(Transform{row.position}, BoxCollider{row.size},
+                           PhysicsBody{.velocity = row.velocity, .mass = row.mass}, group.color);
+            }
         }
         return scene;
     } catch (const SceneError&) {

@@ -1,7 +1,9 @@
 #include "core/snapshot_stream.hpp"
 
 #include <cstring>
-#include <fstream>
+
+#include "system/input_file.hpp"
+#include "system/memory.hpp"
 
 namespace quadrille {
 
@@ -22,16 +24,14 @@ void SnapshotWriter::commit() {
 }
 
 SnapshotReader::SnapshotReader(const std::filesystem::path& file) : file_(file.string()) {
-    if (std::filesystem::is_directory(file)) fail("is a folder");
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in) fail("cannot be opened");
-    const auto size = static_cast<std::size_t>(in.tellg());
+    try {
+        data_ = readRegularFile(file, memoryOfMachine());
+    } catch (const Error& error) {
+        fail(error.what());
+    }
+    const std::size_t size = data_.size();
     std::uint64_t expected = 0;
     if (size < sizeof expected) fail("is not a snapshot");
-    data_.resize(size);
-    in.seekg(0);
-    in.read(data_.data(), static_cast<std::streamsize>(size));
-    if (!in) fail("cannot be read");
     std::memcpy(&expected, data_.data() + size - sizeof expected, sizeof expected);
     data_.resize(size - sizeof expected);
     Checksum checksum;

@@ -90,7 +90,7 @@ class SnapshotReader {
 
   private:
     std::string file_;
-    std::vector<char> data_;
+    std::string data_;
     std::size_t at_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "program.hpp"
 
@@ -80,6 +81,56 @@ TEST(Explain, FollowsTheOptions) {
     EXPECT_TRUE(contains(text, "100 moving"));
     EXPECT_TRUE(contains(text, "16 bytes a body"));
 }
+
+/// What a body needs depends on what runs; the numbers are held against a run below.
+TEST(Explain, SaysHowMuchMemoryARunTakes) {
+    const auto bytesOf = [](const Arguments& arguments) {
+        const std::string text =
+            explanationOf(Arguments{"--scene", "balanced", "--headless"} + arguments);
+        const std::size_t at = text.find("  about ");
+        EXPECT_NE(at, std::string::npos) << text;
+        EXPECT_TRUE(contains(text, "bytes a body once it runs")) << text;
+        return at == std::string::npos ? 0 : std::stod(text.substr(at + 8));
+    };
+    const double discrete = bytesOf({"--law", "impulse", "--resolver", "sequential"});
+    const double continuous = bytesOf({"--law", "continuous", "--resolver", "sequential"});
+    const double single =
+        bytesOf({"--law", "impulse", "--resolver", "sequential", "--precision", "float"});
+    EXPECT_LT(single, discrete);
+    EXPECT_LT(discrete, continuous);
+    EXPECT_LT(
+        bytesOf({"--law", "impulse", "--resolver", "sequential", "--partitioner", "static-grid"}),
+        discrete);
+    EXPECT_LT(discrete, bytesOf({"--law", "impulse", "--resolver", "threads", "--threads", "2"}));
+}
+
+class Memory : public testing::TestWithParam<std::vector<std::string>> {};
+
+/// Of the world and the work space of a run, which is most of what it takes.
+TEST_P(Memory, IsWhatARunTakes) {
+    const Arguments run = Arguments{"--headless", "--scene",    "balanced-scaled", "--entities",
+                                    "40000",      "--resolver", "sequential"} +
+                          GetParam();
+    const std::string text = explanationOf(run);
+    const double said = std::stod(text.substr(text.find("  about ") + 8));
+    const ProcessResult result = runProgram(run + Arguments{"--frames", "3", "--json", "-"});
+    const double taken = Json::parse(result.out)["bytes_per_body"];
+    EXPECT_GT(said, 0.8 * taken);
+    EXPECT_LT(said, 2.2 * taken);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Explain, Memory,
+    testing::Values(Arguments{"--law", "impulse"}, Arguments{"--law", "continuous"},
+                    Arguments{"--law", "impulse", "--precision", "float"},
+                    Arguments{"--law", "impulse", "--partitioner", "static-grid"},
+                    Arguments{"--law", "impulse", "--partitioner", "quadtree"},
+                    Arguments{"--law", "continuous", "--partitioner", "static-grid"}),
+    [](const auto& test) {
+        std::string words;
+        for (const std::string& word : test.param) words += word;
+        return identifier(words);
+    });
 
 /// Events are written from a listener, so asking for them makes the engine model it.
 TEST(Explain, EventsNeedAListener) {

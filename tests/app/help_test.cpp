@@ -20,7 +20,7 @@ TEST(Help, ListsEveryOption) {
           "--explain",   "--json",         "--csv",          "--dump-state",  "--dump-events",
           "--save",      "--load",         "--screenshot",   "--no-fallback", "--list",
           "--version",   "--help",         "--window-size",  "--paused",      "--speed",
-          "--show",      "--color-by",     "--no-vsync"}) {
+          "--show",      "--color-by",     "--no-vsync",     "--force-memory"}) {
         EXPECT_TRUE(contains(result.out, option)) << option;
     }
 }

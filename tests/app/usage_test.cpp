@@ -145,6 +145,12 @@ TEST(Usage, LawThatNeedsACompletePartition) {
     expectUsageError({"--law", "continuous", "--rebuild", "every:10"}, {"misses no pair"});
 }
 
+TEST(Usage, CellsTooSmallForTheWorld) {
+    for (const char* size : {"0.001", "1e-300", "0.05,0.05", "1000,0.001"}) {
+        expectUsageError({"--partitioner", "static-grid", "--cell-size", size}, {"--cell-size"});
+    }
+}
+
 TEST(Usage, NoScreenshotWithoutAWindow) {
     expectUsageError({"--screenshot", "shot.png"}, {"--screenshot", "--headless"});
 }

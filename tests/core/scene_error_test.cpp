@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 #include <quadrille/scene.hpp>
 
@@ -228,6 +229,22 @@ TEST_F(SceneErrors, TableRowsAndHeaders) {
     expectTableRefused("x,y,vx,vy,w,h\n1,2,3,4,0,1\n", ":2:9: w: ");
     expectTableRefused("x,y,vx,vy,w,h\n1,2,3,4,1,-1\n", ":2:11: h: ");
     expectTableRefused("x,y,vx,vy,w,h,mass\n1,2,3,4,5,6,0\n", ":2:13: mass: ");
+}
+
+/// Rows are counted before memory is taken for them.
+TEST_F(SceneErrors, TablesOfTooManyRows) {
+    expectTableRefused("x,y,vx,vy\n" + std::string(50'000'002, '\n'),
+                       ": has more than 50000000 rows");
+    folder_.write("table.csv", "x,y,vx,vy\n1,2,3,4\n1,2,3,4\nwrong\n");
+    const auto scene = folder_.write("scene.toml", after("[[instance]]\nfile = \"table.csv\""));
+    std::vector<std::uint64_t> announced;
+    const auto announce = [&](std::uint64_t bodies, std::optional<Law>) {
+        announced.push_back(bodies);
+        throw Error("enough");
+    };
+    EXPECT_EQ(errorOf([&] { loadScene(scene, {.announce = announce}); }), "enough");
+    ASSERT_EQ(announced.size(), 1u);
+    EXPECT_GE(announced[0], 3u);
 }
 
 TEST_F(SceneErrors, FilesThatCannotBeRead) {
