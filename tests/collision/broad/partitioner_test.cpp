@@ -17,6 +17,7 @@
 #include "collision/support.hpp"
 #include "partition_checks.hpp"
 #include "reals.hpp"
+#include "sanitized.hpp"
 
 namespace quadrille {
 namespace {
@@ -109,7 +110,7 @@ TYPED_TEST(PartitionerTest, KeepsNothingOfThePreviousScene) {
         SCOPED_TRACE(name(config));
         const auto partitioner = makePartitioner<Real>(config, Vec2(256, 128));
         NarrowPhase<Real> narrowPhase;
-        for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        for (std::uint64_t seed = 0; seed < scenesOf(60); ++seed) {
             SCOPED_TRACE("seed " + std::to_string(seed));
             World world = randomScene(sceneKinds[seed % sceneKinds.size()], seed, 60);
             world.setPrecision(precisionOf<Real>);
@@ -132,7 +133,7 @@ TYPED_TEST(PartitionerTest, BoxesAnUlpApartAreJudgedAsTheNarrowPhaseJudges) {
                                                     Quadtree{15, 1}, Quadtree{10, 2}};
     for (const PartitionerConfig& config : configs) {
         SCOPED_TRACE(name(config));
-        for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        for (std::uint64_t seed = 0; seed < scenesOf(400); ++seed) {
             SCOPED_TRACE("seed " + std::to_string(seed));
             Random random(seed);
             World world({.size = {256, 128}});

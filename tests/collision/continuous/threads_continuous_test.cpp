@@ -13,6 +13,7 @@
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
 #include "collision/thread_checks.hpp"
+#include "sanitized.hpp"
 
 namespace quadrille {
 namespace {
@@ -25,7 +26,7 @@ INSTANTIATE_TEST_SUITE_P(Precisions, ThreadsContinuous,
 
 TEST_P(ThreadsContinuous, RandomScenes) {
     for (const SceneKind kind : sceneKinds) {
-        for (std::uint64_t seed = 200; seed < 207; ++seed) {
+        for (std::uint64_t seed = 202; seed < 202 + scenesOf(7); ++seed) {
             for (std::size_t i = 0; i < completePartitioners.size(); ++i) {
                 SCOPED_TRACE(std::string(name(kind)) + ", seed " + std::to_string(seed) +
                              ", partitioner " + std::to_string(i));
