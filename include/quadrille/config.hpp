@@ -27,7 +27,8 @@ struct StepSettings {
 
 struct SimulationConfig {
     PartitionerConfig partitioner = SemiStaticQuadtree{};
-    Law law = Law::Impulse;
+    /// The exact one; `impulse` is the choice where speed counts more (docs/accuracy.md).
+    Law law = Law::Continuous;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
     int threads = 0;  ///< of Threads, and of Cuda on the host; 0: one for each core

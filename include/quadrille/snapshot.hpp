@@ -14,7 +14,7 @@ struct Snapshot {
     std::string scene;
     std::uint64_t seed = 1;
     std::uint64_t stepsDone = 0;
-    Law law = Law::Impulse;
+    Law law = Law::Continuous;
     StepSettings step;
     World world;  ///< in the precision of the run
 };

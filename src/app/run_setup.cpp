@@ -23,12 +23,15 @@ struct Start {
     std::uint64_t seed;
     World world;
     StepSettings step;
-    Law law;
+    std::optional<Law> law;
     std::uint64_t stepsDone = 0;
 };
 
-/// Of scenes that name none.
-constexpr Law lawOfScenes = Law::Impulse;
+/// Of runs that neither the command line nor the scene names one for.
+Law unnamedLaw(const Options& options) {
+    // The default needs every pair; who asks for the report's policy wants to see it miss some.
+    return mayMissPairs(options.partitioner) ? Law::Impulse : SimulationConfig{}.law;
+}
 
 Start loadStart(const Options& options) {
     if (!options.load.empty()) {
@@ -50,14 +53,35 @@ Start loadStart(const Options& options) {
                          .renderers = !options.headless,
                          .announce = [&](std::uint64_t movingBodies, std::optional<Law> law) {
                              requireMemory<SceneError>(options, file.string(), movingBodies,
-                                                       law.value_or(lawOfScenes));
+                                                       law.value_or(unnamedLaw(options)));
                          }});
     return {.file = file.string(),
             .scene = std::move(scene.name),
             .seed = scene.seed,
             .world = std::move(scene.world),
             .step = scene.step,
-            .law = scene.law.value_or(lawOfScenes)};
+            .law = scene.law};
+}
+
+/// The law to run, with a warning if it is not the default only because that cannot be run.
+Law chooseLaw(const Options& options, const Start& start) {
+    if (options.law) return *options.law;
+    if (start.law) return *start.law;
+    const Law law = unnamedLaw(options);
+    if (law != SimulationConfig{}.law) {
+        std::cerr << "collisionStress: warning: the law '" << name(SimulationConfig{}.law)
+                  << "' needs a partition that misses no pair; running '" << name(law) << "'\n";
+    }
+    return law;
+}
+
+std::string lawsOn(ResolverKind resolver) {
+    std::string text;
+    for (const auto& law : laws()) {
+        if (!runsOn(law.kind, resolver)) continue;
+        text += (text.empty() ? "--law " : ", --law ") + std::string(law.name);
+    }
+    return text;
 }
 
 /// The resolver that is asked for, or the sequential one where the law does not run on it.
@@ -65,7 +89,7 @@ ResolverKind runnable(ResolverKind wanted, Law law, bool fallback) {
     if (runsOn(law, wanted)) return wanted;
     const std::string reason = "the law '" + std::string(name(law)) +
                                "' does not run on the resolver '" + std::string(name(wanted)) + "'";
-    if (!fallback) throw NotAvailable(reason);
+    if (!fallback) throw NotAvailable(reason + "; there run: " + lawsOn(wanted));
     std::cerr << "collisionStress: warning: " << reason << "; running '"
               << name(ResolverKind::Sequential) << "'\n";
     return ResolverKind::Sequential;
@@ -122,7 +146,7 @@ Run setUp(const Options& options) {
     Start start = loadStart(options);
     SimulationConfig config;
     config.partitioner = options.partitioner;
-    config.law = options.law.value_or(start.law);
+    config.law = chooseLaw(options, start);
     config.precision = options.precision.value_or(start.world.precision());
     config.threads = options.threads.value_or(0);
     config.resolver = runnable(options.resolver, config.law, options.fallback);

@@ -27,7 +27,8 @@ HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSi
     }
     if (config.law == Law::Continuous && !partitioner_->partition().complete) {
         throw NotAvailable("the law '" + std::string(name(config.law)) +
-                           "' needs a partition that misses no pair");
+                           "' needs a partition that misses no pair; '" +
+                           std::string(name(Law::Impulse)) + "' does not");
     }
 }
 

@@ -130,7 +130,8 @@ TEST(ErrorMeter, CountsTheGoldenCollisions) {
 /// some per cent, measured with another program on another start; so the brackets are wide, but
 /// leave no room for a law that is twice as bad, or for a metric that is blind.
 TEST(ErrorMeter, TheDiscreteLawsStandNearTheTableOfTheKnownAnswers) {
-    const ErrorMetrics impulse = measure(crowd13k(), {.countMissedPairs = true}, 30).metrics;
+    const ErrorMetrics impulse =
+        measure(crowd13k(), {.law = Law::Impulse, .countMissedPairs = true}, 30).metrics;
     // "Impulse moved back to its time of impact": .921, .948, 11 %, -2.9 %, 2.0 px.
     EXPECT_NEAR(impulse.events.recall(), 0.921, 0.04);
     EXPECT_NEAR(impulse.events.precision(), 0.948, 0.03);
@@ -142,7 +143,8 @@ TEST(ErrorMeter, TheDiscreteLawsStandNearTheTableOfTheKnownAnswers) {
     EXPECT_LT(impulse.wallIdentity->cwiseAbs().maxCoeff(), 0.01);
     EXPECT_EQ(impulse.broadPhaseRecall(), 1);
 
-    const ErrorMetrics fine = measure(crowd13k(), {.step = {.dt = 1.0 / 960}}, 480).metrics;
+    const ErrorMetrics fine =
+        measure(crowd13k(), {.law = Law::Impulse, .step = {.dt = 1.0 / 960}}, 480).metrics;
     // At 1/960: .995, .996, .9 %, -.2 %.
     EXPECT_NEAR(fine.events.recall(), 0.995, 0.004);
     EXPECT_NEAR(fine.events.precision(), 0.996, 0.004);
@@ -173,7 +175,7 @@ TEST(ErrorMeter, TheErrorOfFloatIsMeasuredFromItsOwnStart) {
 
 TEST(ErrorMeter, AMissedBounceIsSeen) {
     // The law `impulse` passes a wall that a body crosses within a step.
-    const ErrorMetrics m = measure(shippedScene("bullet").world, {}, 2).metrics;
+    const ErrorMetrics m = measure(shippedScene("bullet").world, {.law = Law::Impulse}, 2).metrics;
     EXPECT_EQ(m.events.exact, 1u);
     EXPECT_EQ(m.events.measured, 0u);
     EXPECT_EQ(m.events.recall(), 0);
@@ -211,6 +213,7 @@ TEST(ErrorMeter, GravityAndRestitutionHaveTheirReference) {
 TEST(ErrorMeter, PairsMissedByAStaleTreeAreCounted) {
     SimulationConfig config{
         .partitioner = SemiStaticQuadtree{10, 1, SemiStaticQuadtree::EveryFrames{200}},
+        .law = Law::Impulse,
         .step = {.dt = 1.0 / 64},
         .countMissedPairs = true};
     const ErrorMetrics m = measure(headOn(), config, 80).metrics;

@@ -36,7 +36,8 @@ TEST(CudaOptions, ChangeNothingInTheState) {
 TEST(CudaOptions, TheReasonForAFallbackIsTold) {
     const CudaDevice device = findCudaDevice();
     if (device.usable()) GTEST_SKIP() << "there is a device";
-    const ProcessResult result = runProgram(shortRun + Arguments{"--resolver", "cuda"});
+    const ProcessResult result =
+        runProgram(shortRun + Arguments{"--law", "impulse", "--resolver", "cuda"});
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_TRUE(contains(result.err, device.reason)) << result.err;
 }

@@ -86,7 +86,8 @@ TEST_F(SavedRun, MayReplaceTheSnapshotItCameFrom) {
 class OneAnswer : public ProgramTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(OneAnswer, ForEveryPartitioner) {
-    const Arguments run = {"--scene", "imbalanced", "--frames", "30", "--precision", GetParam()};
+    const Arguments run = {"--scene",  "imbalanced", "--law",       "impulse",
+                           "--frames", "30",         "--precision", GetParam()};
     const Json oracle = summaryOf(run + Arguments{"--partitioner", "brute-force"});
     ASSERT_GT(oracle["collisions"], 0);
     const std::vector<Arguments> partitioners = {

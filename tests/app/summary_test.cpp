@@ -37,7 +37,7 @@ TEST_F(Summary, GoesToStdoutAndNothingToStderr) {
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.err, "");
     for (const char* text :
-         {"summary", "imbalanced", "1600 moving", "8 static", "20 frames", "impulse", "double",
+         {"summary", "imbalanced", "1600 moving", "8 static", "20 frames", "continuous", "double",
           "semi-static-quadtree", "sequential", "mean", "median", "p99", "contacts", "collisions",
           "kinetic energy", "drift", "state hash"}) {
         EXPECT_TRUE(contains(result.out, text)) << text;
@@ -82,14 +82,14 @@ TEST_F(Summary, JsonSaysWhatWasAskedFor) {
     EXPECT_EQ(s["entities"], 1600);
     EXPECT_EQ(s["frames"], 20);
     EXPECT_EQ(s["dt"], 0.005);
-    EXPECT_EQ(s["law"], "impulse");
+    EXPECT_EQ(s["law"], "continuous");
     EXPECT_EQ(s["precision"], "float");
     EXPECT_EQ(s["partitioner"], "quadtree");
     EXPECT_EQ(s["resolver"], "sequential");
     EXPECT_EQ(s["requested_resolver"], "auto");
     EXPECT_EQ(s["threads"], 1);
     EXPECT_TRUE(s["device"].is_null());
-    EXPECT_EQ(s["rebuilds"], 20);
+    EXPECT_GT(s["rebuilds"], 0);
     EXPECT_EQ(s["version"], version);
     EXPECT_EQ(s["commit"], commit());
     EXPECT_LT(s["kinetic_energy"]["end"], s["kinetic_energy"]["start"]);
@@ -162,7 +162,7 @@ TEST_F(Summary, PhasesAreFilledByProfile) {
 }
 
 TEST_F(Summary, MissedPairsAreCountedForThePolicyThatMissesThem) {
-    const Arguments run = {"--scene", "imbalanced", "--frames", "40"};
+    const Arguments run = {"--scene", "imbalanced", "--law", "impulse", "--frames", "40"};
     const Json every = summaryOf(run + Arguments{"--rebuild", "every:10"});
     ASSERT_TRUE(every["missed_pairs"].is_number_unsigned());
     EXPECT_GT(every["missed_pairs"], 0);

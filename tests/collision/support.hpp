@@ -38,11 +38,13 @@ inline Scene shippedScene(const std::string& name, std::optional<std::uint64_t> 
     return loadScene(QUADRILLE_SCENES_DIR "/" + name + ".toml", {.entities = entities});
 }
 
-/// A simulation of a scene with the scene's own step settings.
+/// A simulation of a scene with the law `impulse` and the scene's own step settings.
 inline Simulation simulationOf(Scene scene, const PartitionerConfig& partitioner,
                                Precision precision = Precision::Double) {
-    return Simulation(std::move(scene.world),
-                      {.partitioner = partitioner, .precision = precision, .step = scene.step});
+    return Simulation(std::move(scene.world), {.partitioner = partitioner,
+                                               .law = Law::Impulse,
+                                               .precision = precision,
+                                               .step = scene.step});
 }
 
 }  // namespace quadrille

@@ -18,7 +18,7 @@ namespace {
 Simulation touching(int boxes = 3) {
     World world;
     for (int i = 0; i < boxes; ++i) makeBody(world, {i * 1.5, 0}, {.mass = 1}, {2, 2});
-    return Simulation(std::move(world));
+    return Simulation(std::move(world), {.law = Law::Impulse});
 }
 
 TEST(Subscription, OfNothingIsNotActive) {

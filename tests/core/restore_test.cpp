@@ -159,7 +159,8 @@ TEST(RestoreInMemory, OfALawThatTheResolverDoesNotRunChangesNothing) {
     Simulation baseline(crowd(1, 50), {.law = Law::Baseline});
     baseline.run(4);
     const Snapshot snapshot = baseline.snapshot();
-    const SimulationConfig config{.resolver = ResolverKind::Threads, .threads = 2};
+    const SimulationConfig config{
+        .law = Law::Impulse, .resolver = ResolverKind::Threads, .threads = 2};
     Simulation sim(crowd(2), config);
     Simulation undisturbed(crowd(2), config);
     sim.run(3);

@@ -117,6 +117,7 @@ TEST_P(Allocation, NoneWithThreads) {
     // Enough bodies for loops to be shared out, and crowded, so that contacts are as well.
     Scene scene = shippedScene("demo13k", 9000);
     Simulation sim(std::move(scene.world), {.partitioner = Quadtree{},
+                                            .law = Law::Impulse,
                                             .precision = GetParam(),
                                             .resolver = ResolverKind::Threads,
                                             .threads = 3,

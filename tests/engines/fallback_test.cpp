@@ -43,7 +43,7 @@ TEST(MissingDevice, IsAnErrorThatSaysWhy) {
     if (device.usable()) GTEST_SKIP() << "there is a device";
     EXPECT_FALSE(device.reason.empty());
     try {
-        Simulation(twoBoxes(), {.resolver = ResolverKind::Cuda});
+        Simulation(twoBoxes(), {.law = Law::Impulse, .resolver = ResolverKind::Cuda});
         FAIL() << "no error";
     } catch (const DeviceError& error) {
         EXPECT_EQ(std::string(error.what()), "cuda: " + device.reason);
@@ -52,7 +52,8 @@ TEST(MissingDevice, IsAnErrorThatSaysWhy) {
 
 TEST(MissingDevice, IsReplacedWhereThatIsAllowed) {
     if (findCudaDevice().usable()) GTEST_SKIP() << "there is a device";
-    Simulation sim(twoBoxes(), {.resolver = ResolverKind::Cuda, .fallback = true});
+    Simulation sim(twoBoxes(),
+                   {.law = Law::Impulse, .resolver = ResolverKind::Cuda, .fallback = true});
     EXPECT_EQ(sim.config().resolver, ResolverKind::Sequential);
     EXPECT_FALSE(sim.resolverFailure().empty());
     sim.setPartitioner(Quadtree{});
@@ -73,6 +74,7 @@ TEST(MissingDevice, LeavesThePartitionToTheThreads) {
     for (const PartitionerConfig& partitioner :
          {PartitionerConfig(Quadtree{}), PartitionerConfig(SemiStaticQuadtree{})}) {
         Simulation sim(crowd(), {.partitioner = partitioner,
+                                 .law = Law::Impulse,
                                  .resolver = ResolverKind::Cuda,
                                  .threads = 3,
                                  .fallback = true});

@@ -135,8 +135,9 @@ INSTANTIATE_TEST_SUITE_P(Precisions, ContactOrder,
 TEST_P(ContactOrder, TimesDoNotFallWithinAStep) {
     for (const SceneKind kind : sceneKinds) {
         SCOPED_TRACE(name(kind));
-        Simulation sim(randomScene(kind, 41, 150, 300),
-                       {.precision = GetParam(), .step = {.restitution = 0.9}});
+        Simulation sim(
+            randomScene(kind, 41, 150, 300),
+            {.law = Law::Impulse, .precision = GetParam(), .step = {.restitution = 0.9}});
         const auto seen = contactsOf(sim, 30);
         for (std::size_t i = 1; i < seen.size(); ++i) {
             if (seen[i].step != seen[i - 1].step) continue;
@@ -155,7 +156,8 @@ TEST_P(ContactOrder, TiesAreBrokenByTheHashAndThenTheRows) {
     // all bodies that overlapped from the start have time 0.
     for (const SceneKind kind : sceneKinds) {
         SCOPED_TRACE(name(kind));
-        Simulation sim(randomScene(kind, 42, 150, 1000), {.precision = GetParam()});
+        Simulation sim(randomScene(kind, 42, 150, 1000),
+                       {.law = Law::Impulse, .precision = GetParam()});
         const auto seen = contactsOf(sim, 1);
         for (std::size_t i = 1; i < seen.size(); ++i) {
             ASSERT_LT(seenKeys(seen[i - 1].contact), seenKeys(seen[i].contact)) << i;
@@ -173,7 +175,7 @@ TEST_P(ContactOrder, TheFirstBodyOfAPairIsTheOneCreatedFirstEvenIfItsIdIsLarger)
     world.flush();
     for (int i = 0; i < 40; ++i) makeBox(world, {double(i), 1}, {}, {20, 20});
 
-    Simulation sim(std::move(world), {.precision = GetParam()});
+    Simulation sim(std::move(world), {.law = Law::Impulse, .precision = GetParam()});
     const auto seen = contactsOf(sim, 1);
     ASSERT_GT(seen.size(), 500u);
     int swapped = 0;
@@ -189,7 +191,7 @@ TEST_P(ContactOrder, TheFirstBodyOfAPairIsTheOneCreatedFirstEvenIfItsIdIsLarger)
 TEST_P(ContactOrder, IsTheSameForEveryPartitioner) {
     const auto contacts = [&](const PartitionerConfig& partitioner) {
         Simulation sim(randomScene(SceneKind::Clustered, 43, 150, 100),
-                       {.partitioner = partitioner, .precision = GetParam()});
+                       {.partitioner = partitioner, .law = Law::Impulse, .precision = GetParam()});
         return contactsOf(sim, 10);
     };
     const auto expected = contacts(BruteForce{});

@@ -18,7 +18,8 @@ namespace {
 class Gravity : public testing::TestWithParam<Precision> {
   protected:
     SimulationConfig config(double restitution) const {
-        return {.precision = GetParam(),
+        return {.law = Law::Impulse,
+                .precision = GetParam(),
                 .step = {.gravity = {0, -200}, .restitution = restitution}};
     }
 };

@@ -20,7 +20,7 @@ namespace {
 constexpr double dt = 1.0 / 64;  // exact, and so are the positions of the small cases
 
 SimulationConfig config(Precision precision = Precision::Double) {
-    return {.precision = precision, .step = {.dt = dt}};
+    return {.law = Law::Impulse, .precision = precision, .step = {.dt = dt}};
 }
 
 std::vector<double> sortedSpeeds(const World& world, int axis) {

@@ -41,6 +41,7 @@ TEST_P(Threads, RandomScenes) {
                              ", partitioner " + std::to_string(i));
                 expectTheSameOnThreads([&] { return randomScene(kind, seed, 120, 200); },
                                        {.partitioner = partitioners[i],
+                                        .law = Law::Impulse,
                                         .precision = GetParam(),
                                         .step = {.gravity = {0, seed % 2 == 0 ? 0.0 : -50.0},
                                                  .restitution = seed % 3 == 0 ? 1 : 0.6}},
@@ -70,8 +71,9 @@ TEST_P(Threads, TreesThatAreSplitOnAllThreads) {
         for (const PartitionerConfig& partitioner : std::vector<PartitionerConfig>{
                  Quadtree{10, 20}, Quadtree{3, 50}, StaticGrid{}, SemiStaticQuadtree{}}) {
             SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::string(name(partitioner)));
-            expectTheSameOnThreads(world, {.partitioner = partitioner, .precision = GetParam()}, 2,
-                                   {3});
+            expectTheSameOnThreads(
+                world, {.partitioner = partitioner, .law = Law::Impulse, .precision = GetParam()},
+                2, {3});
             if (HasFailure()) return;
         }
     }
@@ -96,10 +98,12 @@ TEST_P(ShippedScenes, EveryPartitionerAndNumberOfThreads) {
     const StepSettings step = load().step;
     for (std::size_t i = 0; i < partitioners.size(); ++i) {
         SCOPED_TRACE("partitioner " + std::to_string(i));
-        expectTheSameOnThreads(
-            [&] { return load().world; },
-            {.partitioner = partitioners[i], .precision = precision, .step = step}, 12,
-            threadCounts);
+        expectTheSameOnThreads([&] { return load().world; },
+                               {.partitioner = partitioners[i],
+                                .law = Law::Impulse,
+                                .precision = precision,
+                                .step = step},
+                               12, threadCounts);
         if (HasFailure()) return;
     }
 }
@@ -125,7 +129,8 @@ std::uint64_t hashAfter(const std::string& scene, std::uint64_t entities, int th
                         std::uint64_t steps) {
     Scene loaded = shippedScene(scene, entities);
     Simulation sim(std::move(loaded.world),
-                   {.resolver = threads > 0 ? ResolverKind::Threads : ResolverKind::Sequential,
+                   {.law = Law::Impulse,
+                    .resolver = threads > 0 ? ResolverKind::Threads : ResolverKind::Sequential,
                     .threads = threads,
                     .step = loaded.step});
     EXPECT_EQ(sim.threads(), std::max(threads, 1));
@@ -147,8 +152,10 @@ TEST(ThreadsInSimulation, LargeScenesEndInTheSameState) {
 TEST(ThreadsInSimulation, ListenersHearTheContactsInCanonicalOrder) {
     const auto contacts = [](ResolverKind resolver) {
         Scene scene = shippedScene("imbalanced", 200);
-        Simulation sim(std::move(scene.world),
-                       {.resolver = resolver, .threads = 3, .step = {.dt = scene.step.dt}});
+        Simulation sim(std::move(scene.world), {.law = Law::Impulse,
+                                                .resolver = resolver,
+                                                .threads = 3,
+                                                .step = {.dt = scene.step.dt}});
         std::vector<std::tuple<double, std::int64_t, std::int64_t, bool>> seen;
         sim.onContact(
             [&](const Contact& c) { seen.emplace_back(c.time, c.numberA, c.numberB, c.collided); });
@@ -167,7 +174,7 @@ TEST(ThreadsInSimulation, OneLongChainOfContacts) {
         for (int i = 0; i < 5000; ++i) {
             makeBox(world, {3.0 * i - 7500, 0}, moving(i == 0 ? 50 : i % 7, i % 3), {3.25, 3});
         }
-        Simulation sim(std::move(world), {.resolver = resolver, .threads = 4});
+        Simulation sim(std::move(world), {.law = Law::Impulse, .resolver = resolver, .threads = 4});
         sim.run(20);
         return stateHash(sim.world());
     };
@@ -177,7 +184,8 @@ TEST(ThreadsInSimulation, OneLongChainOfContacts) {
 TEST(ThreadsInSimulation, BodiesMayComeAndGo) {
     const auto hash = [](ResolverKind resolver) {
         Scene scene = shippedScene("demo13k", 3000);
-        Simulation sim(std::move(scene.world), {.resolver = resolver, .threads = 3});
+        Simulation sim(std::move(scene.world),
+                       {.law = Law::Impulse, .resolver = resolver, .threads = 3});
         for (int round = 0; round < 6; ++round) {
             sim.run(5);
             World& world = sim.world();
@@ -204,8 +212,9 @@ TEST(ThreadsInSimulation, AnOverflowNamesTheFirstEntity) {
         const double speed = i == 31'000 || i == 59'000 ? 1e308 : 1;
         makeBox(world, {double(i % 300) * 10, double(i / 300) * 10}, moving(0, speed));
     }
-    Simulation sim(std::move(world),
-                   {.resolver = ResolverKind::Threads, .threads = 4, .step = {.dt = 1}});
+    Simulation sim(
+        std::move(world),
+        {.law = Law::Impulse, .resolver = ResolverKind::Threads, .threads = 4, .step = {.dt = 1}});
     try {
         sim.run(10);
         FAIL() << "no error";
@@ -218,8 +227,9 @@ TEST(ThreadsInSimulation, AnOverflowNamesTheFirstEntity) {
 TEST(ThreadsInSimulation, TwoSimulationsTakeTurns) {
     const auto make = [](int threads) {
         Scene scene = shippedScene("demo13k", 5000);
-        return Simulation(std::move(scene.world),
-                          {.resolver = ResolverKind::Threads, .threads = threads});
+        return Simulation(
+            std::move(scene.world),
+            {.law = Law::Impulse, .resolver = ResolverKind::Threads, .threads = threads});
     };
     Simulation first = make(2);
     Simulation second = make(5);

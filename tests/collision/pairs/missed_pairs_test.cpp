@@ -27,6 +27,7 @@ using Skin = SemiStaticQuadtree::Skin;
 SimulationConfig counting(const PartitionerConfig& partitioner,
                           Precision precision = Precision::Double) {
     return {.partitioner = partitioner,
+            .law = Law::Impulse,
             .precision = precision,
             .step = {.dt = 1.0 / 64},
             .countMissedPairs = true};
