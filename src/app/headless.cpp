@@ -7,15 +7,8 @@
 #include <optional>
 #include <utility>
 
-#ifdef _WIN32
-#include <io.h>
-#define QUADRILLE_ISATTY(stream) (_isatty(_fileno(stream)) != 0)
-#else
-#include <unistd.h>
-#define QUADRILLE_ISATTY(stream) (isatty(fileno(stream)) != 0)
-#endif
-
 #include "app/interrupt.hpp"
+#include "app/progress.hpp"
 #include "app/run_session.hpp"
 
 namespace quadrille::app {
@@ -61,25 +54,6 @@ class PeriodicReport {
     double startEnergy_;
     std::uint64_t frames_ = 0, contacts_ = 0;
     double milliseconds_ = 0;
-};
-
-/// "frame 120 of 600" on a terminal, wiped when done.
-class ProgressLine {
-  public:
-    explicit ProgressLine(std::optional<std::uint64_t> frames)
-        : frames_(frames), shown_(QUADRILLE_ISATTY(stderr) && frames.has_value()) {}
-    ~ProgressLine() { wipe(); }
-
-    void show(std::uint64_t frame) {
-        if (shown_) std::cerr << "\rframe " << frame << " of " << *frames_ << std::flush;
-    }
-    void wipe() const {
-        if (shown_) std::cerr << "\r\x1b[K" << std::flush;
-    }
-
-  private:
-    std::optional<std::uint64_t> frames_;
-    bool shown_;
 };
 
 }  // namespace

@@ -1,12 +1,16 @@
 #include "app/run_session.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <quadrille/names.hpp>
+
 #include "app/error_summary.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/progress.hpp"
 
 namespace quadrille::app {
 
@@ -14,6 +18,15 @@ namespace {
 
 /// A snapshot is opened at the end of the run, too late to say that it cannot be.
 void requireWritable(const std::string& snapshot) { const WholeFile probe(snapshot); }
+
+using namespace std::chrono_literals;
+
+/// How long a frame may go on after a signal, at the least. What it would take to repeat the frames
+/// since the checkpoint is as well spent on waiting for this one.
+constexpr auto leastGrace = 100ms;
+/// Between checkpoints, at the least, and times what one costs.
+constexpr auto leastAge = 50ms;
+constexpr int ageByCost = 10;
 
 }  // namespace
 
@@ -24,30 +37,84 @@ std::ostream& wordsOf(const Options& options) {
     return dataOnStdout ? std::cerr : std::cout;
 }
 
-RunSession::RunSession(Run run, const Options& options) : run_(std::move(run)), options_(options) {
+RunSession::RunSession(Run run, const Options& options)
+    : run_(std::move(run)),
+      options_(options),
+      stepsBefore_(run_.simulation.stepsDone()),
+      watch_({.takeOver = [this](int signal) { return leaveFrame(signal); },
+              .progress = [this](auto inFrame) { showProgress(inFrame); }}) {
     if (!options.json.empty()) json_.emplace(options.json);
     if (!options.dumpState.empty()) state_.emplace(options.dumpState);
     if (!options.save.empty()) requireWritable(options.save);
     if (!options.csv.empty()) frames_.emplace(options.csv);
-    if (!options.dumpEvents.empty()) {
-        events_.emplace(options.dumpEvents);
-        run_.simulation.onContact([this](const Contact& contact) { events_->record(contact); });
-    }
+    if (!options.dumpEvents.empty()) events_.emplace(options.dumpEvents);
     if (options.error) meter_.emplace(run_.simulation);
     start_ = Conserved::of(run_.simulation);
     begin_ = Clock::now();
 }
 
 const StepReport& RunSession::step() {
-    const auto before = Clock::now();
-    const StepReport& report = run_.simulation.step();
-    const std::chrono::duration<double> seconds = Clock::now() - before;
+    keepCheckpoint();
+    const StepReport* report = nullptr;
+    std::chrono::duration<double> seconds{};
+    const auto age = Clock::now() - checkpoint_->taken;
+    watch_.section(std::max<Clock::duration>(leastGrace, age), [&] {
+        const auto before = Clock::now();
+        report = &run_.simulation.step();
+        seconds = Clock::now() - before;
+        if (meter_) meter_->follow();
+    });
+    if (std::exchange(progressShown_, false)) ProgressLine(options_.frames).wipe();
     const double milliseconds =
-        1e3 * (seconds.count() - report.auditSeconds - report.observeSeconds);
-    statistics_.add(report, milliseconds);
-    if (meter_) meter_->follow();
-    if (frames_) frames_->record(run_.simulation, report, milliseconds);
-    return report;
+        1e3 * (seconds.count() - report->auditSeconds - report->observeSeconds);
+    statistics_.add(*report, milliseconds);
+    if (events_) {
+        for (const Contact& contact : run_.simulation.contacts()) events_->record(contact);
+    }
+    if (frames_) frames_->record(run_.simulation, *report, milliseconds);
+    return *report;
+}
+
+void RunSession::reconfigure(const SimulationConfig& config) {
+    run_.simulation.reconfigure(config);
+    checkpoint_.reset();
+}
+
+/// Only now and then: what it costs to repeat the frames since is less than to copy each.
+void RunSession::keepCheckpoint() {
+    const auto before = Clock::now();
+    if (checkpoint_) {
+        // Frames that depend on the age of a tree cannot be repeated from the bodies alone.
+        const SimulationConfig& config = checkpoint_->config;
+        const bool repeats = config.law != Law::Baseline && !mayMissPairs(config.partitioner);
+        const auto due = std::max<Clock::duration>(leastAge, ageByCost * checkpoint_->cost);
+        if (repeats && before - checkpoint_->taken < due) return;
+    }
+    checkpoint_ = {run_.simulation.snapshot(), run_.simulation.config(), before, {}};
+    checkpoint_->cost = Clock::now() - before;
+}
+
+/// The end of a run that hangs in a frame: its simulation is out of reach, and another one repeats
+/// what came after the checkpoint.
+int RunSession::leaveFrame(int signal) {
+    SimulationConfig config = checkpoint_->config;
+    // The device may be what hangs; the result is the same.
+    if (config.resolver == ResolverKind::Cuda) config.resolver = ResolverKind::Sequential;
+    config.keepContacts = false;
+    config.countMissedPairs = false;
+    Run run{.scene = run_.scene,
+            .seed = run_.seed,
+            .requestedResolver = run_.requestedResolver,
+            .simulation = Simulation(std::move(checkpoint_->snapshot.world), config)};
+    run.simulation.resumeAt(checkpoint_->snapshot.stepsDone);
+    run.simulation.run(stepsBefore_ + statistics_.frames() - run.simulation.stepsDone());
+    ProgressLine(options_.frames).wipe();
+    return conclude(run, signal, true);
+}
+
+void RunSession::showProgress(std::chrono::duration<double> inFrame) {
+    progressShown_ = true;
+    ProgressLine(options_.frames).show(statistics_.frames(), inFrame.count());
 }
 
 bool RunSession::allFramesDone() const {
@@ -62,25 +129,28 @@ bool RunSession::timeIsUp() const {
 
 int RunSession::finish() {
     // A signal that comes later than the last frame interrupts nothing.
-    const int signal = allFramesDone() || timeIsUp() ? 0 : interruptedBy();
-    auto summary = summaryJson(run_, statistics_, start_);
+    return conclude(run_, allFramesDone() || timeIsUp() ? 0 : interruptedBy(), false);
+}
+
+int RunSession::conclude(const Run& run, int signal, bool insideFrame) {
+    auto summary = summaryJson(run, statistics_, start_);
     summary["interrupted"] = signal != 0;
     // A window always measures the phases, for its panels.
     if (!options_.profile) summary["phases_ms"] = nullptr;
     std::ostream& words = wordsOf(options_);
     printSummary(words, summary);
     if (meter_) {
-        summary["error"] = nullptr;  // ended before the first frame
-        if (statistics_.frames() > 0) {
+        summary["error"] = nullptr;  // ended before the first frame, or inside one
+        if (statistics_.frames() > 0 && !insideFrame) {
             summary["error"] = errorJson(meter_->metrics());
             printError(words, summary["error"]);
         }
     }
     if (frames_) frames_->commit();
     if (events_) events_->commit();
-    if (state_) writeState(*state_, run_.simulation.world());
+    if (state_) writeState(*state_, run.simulation.world());
     if (!options_.save.empty()) {
-        saveSnapshot(options_.save, run_.simulation, run_.scene, run_.seed);
+        saveSnapshot(options_.save, run.simulation, run.scene, run.seed);
     }
     if (json_) {
         json_->stream() << summary.dump(2) << '\n';

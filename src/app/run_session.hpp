@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "app/recorders.hpp"
 #include "app/run_setup.hpp"
 #include "app/run_statistics.hpp"
+#include "app/run_watch.hpp"
 #include "app/summary.hpp"
 
 namespace quadrille::app {
@@ -35,8 +37,12 @@ class RunSession {
     const RunStatistics& statistics() const { return statistics_; }
     const Conserved& start() const { return start_; }
 
-    /// One frame.
+    /// One frame. A signal ends the program in it if it lasts: with the state, and all outputs, of
+    /// the end of the frame before.
     const StepReport& step();
+
+    /// Changes what a step is made with, as Simulation::reconfigure does.
+    void reconfigure(const SimulationConfig& config);
 
     /// Whether --frames ends the run here.
     bool allFramesDone() const;
@@ -49,8 +55,22 @@ class RunSession {
   private:
     using Clock = std::chrono::steady_clock;
 
+    /// Where a run can be taken up again that hangs in a frame.
+    struct Checkpoint {
+        Snapshot snapshot;
+        SimulationConfig config;
+        Clock::time_point taken;
+        Clock::duration cost;
+    };
+
+    void keepCheckpoint();
+    int leaveFrame(int signal);
+    void showProgress(std::chrono::duration<double> inFrame);
+    int conclude(const Run& run, int signal, bool insideFrame);
+
     Run run_;
     const Options& options_;
+    std::uint64_t stepsBefore_ = 0;  // of the run that a snapshot is of
     std::optional<OutputFile> json_, state_;
     std::optional<FrameRecorder> frames_;
     std::optional<EventRecorder> events_;
@@ -58,6 +78,9 @@ class RunSession {
     Conserved start_;
     RunStatistics statistics_;
     Clock::time_point begin_;
+    std::optional<Checkpoint> checkpoint_;
+    bool progressShown_ = false;
+    RunWatch watch_;  // last, since its thread uses the others
 };
 
 }  // namespace quadrille::app

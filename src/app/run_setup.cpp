@@ -153,6 +153,7 @@ Run setUp(const Options& options) {
     config.step = start.step;
     if (options.dt) config.step.dt = *options.dt;
     if (options.restitution) config.step.restitution = *options.restitution;
+    config.keepContacts = !options.dumpEvents.empty();
     config.profile = options.profile;
     config.countMissedPairs = options.error || mayMissPairs(options.partitioner);
     if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <string>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -88,6 +90,53 @@ INSTANTIATE_TEST_SUITE_P(Run, Signal, testing::Values(SIGINT, SIGTERM, SIGHUP),
                                     : test.param == SIGTERM ? "terminate"
                                                             : "hangup";
                          });
+
+class SignalInAFrame : public ProgramTest {
+  protected:
+    static constexpr int lanes = 40;
+
+    /// In each lane a heavy box drives a light one against a wall, which takes 993,458 collisions
+    /// in all (Galperin 2003), nearly all of them in the frame in which the heavy one turns round.
+    std::string crushes() const {
+        std::string boxes = "x,y,vx,vy,w,h,mass\n";
+        for (int lane = 0; lane < lanes; ++lane) {
+            const std::string y = std::to_string(4 * lane - 2 * lanes);
+            boxes += "-40," + y + ",0,0,2,2,1\n-30," + y + ",-60,0,2,2,1e11\n";
+        }
+        write("boxes.csv", boxes);
+        return write("crushes.toml",
+                     "format = 1\nworld = { size = [200, 200] }\nstep = { law = 'continuous' }\n"
+                     "[[body]]\nposition = [-50, 0]\nsize = [2, 180]\nstatic = true\n"
+                     "[[instance]]\nfile = 'boxes.csv'\n");
+    }
+};
+
+TEST_F(SignalInAFrame, LeavesItWithTheOutputsOfTheFrameBefore) {
+    const std::string scene = crushes();
+    Process process(
+        QUADRILLE_PROGRAM,
+        {"--headless", "--scene", scene, "--frames", "1000", "--report-every", "1e-9", "--json",
+         file("run.json"), "--csv", file("frames.csv"), "--dump-state", file("state.csv"),
+         "--dump-events", file("events.csv"), "--save", file("snapshot")});
+    ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "frames 10 "); }))
+        << process.err();
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    process.sendSignal(SIGTERM);
+    const ProcessResult result = process.finish();
+    EXPECT_EQ(result.exitCode, 128 + SIGTERM);
+    const Json summary = Json::parse(contentOf(path("run.json")));
+    EXPECT_EQ(summary["interrupted"], true);
+    EXPECT_LT(summary["collisions"], lanes * 500'000);
+
+    const Json undisturbed = summaryOf({"--scene", scene, "--frames", summary["frames"].dump()});
+    EXPECT_EQ(summary["state_hash"], undisturbed["state_hash"]);
+    EXPECT_EQ(parseTable(contentOf(path("frames.csv"))).rows.size(), summary["frames"]);
+    EXPECT_EQ(parseTable(contentOf(path("events.csv"))).rows.size(), summary["collisions"]);
+    EXPECT_EQ(parseTable(contentOf(path("state.csv"))).rows.size(), 2u * lanes);
+    const Json resumed = summaryOf({"--load", file("snapshot"), "--frames", "0"});
+    EXPECT_EQ(resumed["state_hash"], summary["state_hash"]);
+    EXPECT_EQ(resumed["steps_done"], summary["steps_done"]);
+}
 
 class DeadlySignal : public ProgramTest, public testing::WithParamInterface<int> {};
 

@@ -156,7 +156,7 @@ void Workbench::apply(SimulationConfig config) {
         const CudaDevice device = findCudaDevice();
         if (!device.usable()) throw DeviceError("cuda: " + device.reason);
     }
-    session_->simulation().reconfigure(config);
+    session_->reconfigure(config);
     ++cellsVersion_;
 }
 
