@@ -8,9 +8,9 @@ else()
   target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
     -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd>)
-  # g++ 12 sees overlapping copies, and copies beyond the end, in any "text" + std::string (its bugs
+  # g++ up to 13 sees overlapping copies, and copies beyond the end, in any "text" + std::string (its bugs
   # 105651 and 105329).
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
     target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>)
   endif()
 endif()
