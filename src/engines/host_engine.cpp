@@ -1,6 +1,7 @@
 #include "engines/host_engine.hpp"
 
 #include <chrono>
+#include <system_error>
 
 #include <quadrille/error.hpp>
 #include <quadrille/names.hpp>
@@ -9,6 +10,18 @@
 #include "engines/registry.hpp"
 
 namespace quadrille {
+
+namespace {
+
+ThreadTeam startTeam(unsigned threads, const Thresholds& thresholds) {
+    try {
+        return ThreadTeam(threads, thresholds);
+    } catch (const std::system_error& error) {
+        throw Error(error.what());
+    }
+}
+
+}  // namespace
 
 template <class Real>
 HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSize,
@@ -19,7 +32,7 @@ template <class Real>
 HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSize,
                              unsigned threads, const Thresholds& thresholds)
     : config_(config),
-      team_(threads, thresholds),
+      team_(startTeam(threads, thresholds)),
       partitioner_(makePartitioner<Real>(config.partitioner, worldSize, team_)),
       law_(makeLaw<Real>(config, team_)) {
     if (config.countMissedPairs) {

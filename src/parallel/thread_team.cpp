@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -77,6 +79,12 @@ struct ThreadTeam::Shared {
         : begun(size), patience(size <= cores() ? patienceWithACore : patienceWithout) {
         try {
             for (unsigned i = 1; i < size; ++i) threads.emplace_back([this, i] { serve(i); });
+        } catch (const std::system_error& error) {
+            const std::size_t started = 1 + threads.size();
+            finish();
+            throw std::system_error(error.code(), std::to_string(size) +
+                                                      " threads cannot be started, only " +
+                                                      std::to_string(started));
         } catch (...) {
             finish();
             throw;

@@ -61,6 +61,7 @@ struct Thresholds {
 /// others leaves them some of its workers.
 class ThreadTeam {
   public:
+    /// Throws std::system_error if the system does not start so many.
     explicit ThreadTeam(unsigned threads = 1, const Thresholds& thresholds = {});
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam&) = delete;

@@ -156,5 +156,18 @@ TEST(Threads, AutoTakesThemForManyBodiesOnly) {
     EXPECT_EQ(many["state_hash"], resolverOf("100000", {"--resolver", "sequential"})["state_hash"]);
 }
 
+/// A system gives no more threads than their stacks find room. Sanitizers need more than this
+/// limit.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Threads, ThatCannotBeStartedAreAnError) {
+    Process shell("/bin/sh", Arguments{"-c", "ulimit -s 8192 && ulimit -v 3000000 && exec \"$@\"",
+                                       "sh", QUADRILLE_PROGRAM} +
+                                 cradle + Arguments{"--resolver", "threads", "--threads", "1024"});
+    const ProcessResult result = shell.finish();
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(contains(result.err, "1024 threads cannot be started, only ")) << result.err;
+}
+#endif
+
 }  // namespace
 }  // namespace quadrille
