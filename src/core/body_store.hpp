@@ -169,6 +169,11 @@ class BodyStore {
     template <class Gone, class Moved>
     void erase(Gone&& gone, Moved&& moved);
 
+    /// Takes out one row, in a time that does not depend on how many there are: the last row takes
+    /// its place. Calls `moved(entity, BodyRef)` for that one. The order of creation stays.
+    template <class Moved>
+    void eraseRow(BodyRef body, Moved&& moved);
+
     /// Puts moving and static rows in another order: row i becomes what row order[i] was. Their
     /// order of creation stays.
     void permute(std::span<const std::uint32_t> moving, std::span<const std::uint32_t> fixed);
@@ -261,6 +266,24 @@ void BodyStore::erase(Gone&& gone, Moved&& moved) {
             compact(columns.fixed, &BodyRef::fixed);
         },
         columns_);
+    countEdit();
+}
+
+template <class Moved>
+void BodyStore::eraseRow(BodyRef body, Moved&& moved) {
+    bringNewest();
+    const auto fill = [&](auto& set) {
+        const std::size_t row = body.row();
+        const std::size_t last = set.size() - 1;
+        if (row != last) {
+            set.created.keepNumbers();
+            set.forEachColumn([&](ColumnInfo, auto& column) { column.move(last, row); }, set);
+            moved(set.entity[row], body);
+        }
+        set.forEachColumn([&](ColumnInfo, auto& column) { column.shrink(last); }, set);
+    };
+    std::visit([&](auto& columns) { body.isStatic() ? fill(columns.fixed) : fill(columns.moving); },
+               columns_);
     countEdit();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -170,6 +171,12 @@ class CreationColumn {
         }
     }
     void reserve(std::size_t) {}
+    /// Stores the numbers, so that rows can leave their order.
+    void keepNumbers() {
+        if (!numbers_.empty()) return;
+        numbers_.resize(size_);
+        std::iota(numbers_.begin(), numbers_.end(), 0u);
+    }
 
     std::uint32_t operator[](std::size_t row) const { return view()[row]; }
     std::size_t size() const { return size_; }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <quadrille/world.hpp>
 
@@ -254,9 +255,8 @@ void World::dissolveBody(Entity entity) {
 }
 
 void World::eraseBody(Entity entity) {
-    slots_[entity.index] = BodyRef{};
-    store().erase([&](std::uint32_t index) { return index == entity.index; },
-                  [&](std::uint32_t index, BodyRef to) { slots_[index] = to; });
+    store().eraseRow(std::exchange(slots_[entity.index], BodyRef{}),
+                     [&](std::uint32_t index, BodyRef to) { slots_[index] = to; });
 }
 
 void World::eraseDeadBodies() {

@@ -128,6 +128,8 @@ TEST(BodyMirror, IsAskedByEverybodyWhoNeedsTheStateAndByNobodyElse) {
                   s.erase([](std::uint32_t) { return false; }, [](std::uint32_t, BodyRef) {});
               }),
               1);
+    EXPECT_EQ(asks([](Store s) { s.eraseRow(BodyRef::moving(1), [](std::uint32_t, BodyRef) {}); }),
+              1);
     EXPECT_EQ(asks([](Store s) { s.permute(Order{0, 1, 2, 3, 4, 5}, Order{0, 1, 2, 3}); }), 1);
     EXPECT_EQ(asks([](Store s) { s.position(BodyRef::moving(1)); }), 1);
     EXPECT_EQ(asks([](Store s) { s.velocity(1); }), 1);
@@ -216,6 +218,8 @@ TEST(BodyStore, KnowsWhetherItWasEditedSinceALawAdvancedIt) {
     };
     expectEdit("edit", [&] { store.edit<double>(); });
     expectEdit("append", [&] { store.append(numbered(6)); });
+    expectEdit("eraseRow",
+               [&] { store.eraseRow(BodyRef::fixed(0), [](std::uint32_t, BodyRef) {}); });
     expectEdit("erase", [&] {
         store.erase([](std::uint32_t e) { return e == 6; }, [](std::uint32_t, BodyRef) {});
     });
@@ -355,6 +359,31 @@ TEST(BodyStore, EraseTakesAllColumnsAlongEvenAfterPermute) {
     EXPECT_EQ(moved.at(12), BodyRef::fixed(2));
     EXPECT_FALSE(moved.contains(1));
     EXPECT_FALSE(moved.contains(13));
+}
+
+TEST(BodyStore, EraseRowPutsTheLastRowThereAndNoOther) {
+    BodyStore store = numberedStore();
+    numberLawState(store);
+    std::map<std::uint32_t, BodyRef> moved;
+    const auto note = [&](std::uint32_t entity, BodyRef to) { moved[entity] = to; };
+    store.eraseRow(BodyRef::moving(1), note);
+    expectNumbered(store, {0, 5, 2, 3, 4}, {10, 11, 12, 13});
+    EXPECT_EQ(moved, (std::map<std::uint32_t, BodyRef>{{5, BodyRef::moving(1)}}));
+    store.eraseRow(BodyRef::moving(4), note);
+    store.eraseRow(BodyRef::fixed(0), note);
+    expectNumbered(store, {0, 5, 2, 3}, {13, 11, 12});
+    EXPECT_EQ(moved.size(), 2u);
+    EXPECT_EQ(moved.at(13), BodyRef::fixed(0));
+    EXPECT_EQ(createdOrder(store.read<double>().moving.created, 4), (Order{0, 5, 2, 3}));
+    EXPECT_EQ(createdOrder(store.read<double>().fixed.created, 3), (Order{3, 1, 2}));
+    store.append(numbered(6));
+    EXPECT_EQ(store.read<double>().moving.created[4], 6u) << "the newest comes last";
+}
+
+TEST(BodyStore, EraseRowOfTheLastKeepsTheRowsInOrder) {
+    BodyStore store = numberedStore();
+    store.eraseRow(BodyRef::moving(5), [](std::uint32_t, BodyRef) { FAIL(); });
+    EXPECT_TRUE(store.read<double>().moving.created.isRowOrder());
 }
 
 /// Counts what the one list of columns hands out.

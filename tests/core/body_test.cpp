@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <quadrille/bodies.hpp>
+#include <quadrille/creation_ranks.hpp>
 #include <quadrille/state_hash.hpp>
 #include <quadrille/world.hpp>
 
@@ -107,6 +108,38 @@ TEST(Body, OrderOfCreationIsKeptWhenBodiesInTheMiddleAreDestroyed) {
     const Entity reused = makeBody(world, {9, 0});
     EXPECT_LT(reused.index, 8u) << "an index is taken again, but the newest body stands last";
     EXPECT_EQ(movingEntities(world).back(), reused.index);
+}
+
+/// Taking a body out moves another one's row, which nobody must notice.
+TEST(Body, OthersStayWhatTheyAreWhenBodiesInTheMiddleDissolveOrStopMoving) {
+    World world;
+    std::vector<Entity> e;
+    for (int i = 0; i < 60; ++i) e.push_back(makeBody(world, {double(i), 0}, {.mass = 1.0 + i}));
+    std::size_t moving = e.size(), fixed = 0;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        if (i % 3 == 0) world.remove<BoxCollider>(e[i]);
+        if (i % 3 == 1) world.set(e[i], PhysicsBody{.isStatic = true});
+        moving -= i % 3 != 2;
+        fixed += i % 3 == 1;
+        ASSERT_EQ(world.movingCount(), moving);
+        ASSERT_EQ(world.staticCount(), fixed);
+        ASSERT_EQ(world.validate(), std::vector<std::string>{});
+    }
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        EXPECT_EQ(world.get<Transform>(e[i]).position.x(), double(i));
+        EXPECT_EQ(world.has<BoxCollider>(e[i]), i % 3 != 0);
+        EXPECT_EQ(world.get<PhysicsBody>(e[i]).isStatic, i % 3 == 1);
+        if (i % 3 == 2) {
+            EXPECT_EQ(world.get<PhysicsBody>(e[i]).mass, 1.0 + double(i));
+        }
+    }
+    world.visitBodies([](const auto& bodies) {
+        const CreationRanks ranks(bodies.moving.created, bodies.moving.size());
+        for (std::size_t place = 1; place < bodies.moving.size(); ++place) {
+            EXPECT_LT(bodies.moving.entity[ranks.rowAt(place - 1)],
+                      bodies.moving.entity[ranks.rowAt(place)]);
+        }
+    });
 }
 
 TEST(Body, SwitchesBetweenStaticAndMoving) {
