@@ -19,7 +19,7 @@ struct BoxCollider {
 /// What makes a collider move. A static body has infinite mass and no velocity.
 struct PhysicsBody {
     Vec2 velocity{0, 0};    ///< px/s
-    double mass = 1;        ///< positive; ignored for static bodies
+    double mass = 1;        ///< positive; a static body keeps it for when it moves (1 if it is not)
     bool isStatic = false;  ///< never moves
 };
 

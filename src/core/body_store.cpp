@@ -18,6 +18,12 @@ Real toReal(double value, ColumnInfo info) {
     return static_cast<Real>(value);
 }
 
+/// What a static body keeps of a mass that nobody has checked.
+template <class Real>
+Real keptMass(double mass) {
+    return fits<Real>(mass, true) ? static_cast<Real>(mass) : Real(1);
+}
+
 /// How a column of one precision becomes one of the other.
 template <class To>
 struct Conversion {
@@ -151,6 +157,7 @@ BodyRef BodyStore::append(const NewBody& body) {
                 const std::uint32_t row = room(f.size());
                 f.forEachColumn(grow, f);
                 setCommon(f, row);
+                f.mass.set(row, keptMass<Real>(body.mass));
                 return BodyRef::fixed(row);
             }
             auto& m = columns.moving;
@@ -229,9 +236,13 @@ Vec2 BodyStore::velocity(std::uint32_t row) const {
         columns_);
 }
 
-double BodyStore::mass(std::uint32_t row) const {
+double BodyStore::mass(BodyRef body) const {
     return std::visit(
-        [&](const auto& columns) { return static_cast<double>(columns.moving.mass[row]); },
+        [&](const auto& columns) {
+            const std::uint32_t row = body.row();
+            return static_cast<double>(body.isStatic() ? columns.fixed.mass[row]
+                                                       : columns.moving.mass[row]);
+        },
         columns_);
 }
 
@@ -279,6 +290,14 @@ void BodyStore::setVelocityAndMass(std::uint32_t row, const Vec2& velocity, doub
             columns.moving.mass.set(row, massOfBody);
         },
         columns_);
+    countEdit();
+}
+
+void BodyStore::setStaticMass(std::uint32_t row, double mass) {
+    bringNewest();
+    std::visit([&]<class Real>(
+                   Columns<Real>& columns) { columns.fixed.mass.set(row, keptMass<Real>(mass)); },
+               columns_);
     countEdit();
 }
 

@@ -55,6 +55,7 @@ struct MovingColumns {
 template <class Real>
 struct StaticColumns {
     PlainColumn<Real> x, y, halfWidth, halfHeight;
+    Column<Real> mass;  ///< for when they move again
     PlainColumn<std::uint32_t> entity;
     CreationColumn created;
 
@@ -65,6 +66,7 @@ struct StaticColumns {
         function(ColumnInfo{"position"}, sets.y...);
         function(ColumnInfo{"size", true}, sets.halfWidth...);
         function(ColumnInfo{"size", true}, sets.halfHeight...);
+        function(ColumnInfo{"mass", true}, sets.mass...);
         function(ColumnInfo{"entity"}, sets.entity...);
         function(ColumnInfo{"creation number"}, sets.created...);
     }
@@ -183,10 +185,12 @@ class BodyStore {
     Vec2 position(BodyRef body) const;
     Vec2 halfSize(BodyRef body) const;
     Vec2 velocity(std::uint32_t row) const;
-    double mass(std::uint32_t row) const;
+    double mass(BodyRef body) const;
     void setPosition(BodyRef body, const Vec2& position);
     void setHalfSize(BodyRef body, const Vec2& halfSize);
     void setVelocityAndMass(std::uint32_t row, const Vec2& velocity, double mass);
+    /// Of a static body; a mass that none can have becomes 1.
+    void setStaticMass(std::uint32_t row, double mass);
 
     /// Converts all columns; narrowing rounds to nearest, and columns of a law's own state are
     /// dropped. Throws Error, naming the entity, if a value does not fit; then nothing changes.

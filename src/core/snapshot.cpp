@@ -19,7 +19,7 @@ namespace quadrille {
 namespace {
 
 constexpr std::string_view magic = "QUADRILLE SNAPSHOT\n";
-constexpr std::uint32_t formatVersion = 3;
+constexpr std::uint32_t formatVersion = 4;
 constexpr std::uint32_t byteOrderMark = 0x01020304;
 
 void write(SnapshotWriter& out, const Vec2& v) {

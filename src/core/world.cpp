@@ -280,9 +280,8 @@ void World::readBody(Entity entity, PhysicsBody& out) const {
     const BodyRef body = slots_[entity.index];
     out = PhysicsBody{};
     out.isStatic = body.isStatic();
-    if (out.isStatic) return;
-    out.velocity = store().velocity(body.row());
-    out.mass = store().mass(body.row());
+    out.mass = store().mass(body);
+    if (!out.isStatic) out.velocity = store().velocity(body.row());
 }
 
 void World::writeBody(Entity entity, const Transform& in) {
@@ -302,7 +301,11 @@ void World::writeBody(Entity entity, const PhysicsBody& in) {
         formBody(entity);
         return;
     }
-    if (!in.isStatic) store().setVelocityAndMass(body.row(), in.velocity, in.mass);
+    if (in.isStatic) {
+        store().setStaticMass(body.row(), in.mass);
+    } else {
+        store().setVelocityAndMass(body.row(), in.velocity, in.mass);
+    }
 }
 
 std::size_t World::bytes() const {

@@ -63,6 +63,7 @@ void expectNumbered(const BodyStore& store, const Order& moving, const Order& fi
         EXPECT_EQ(f.entity[i], fixed[i]);
         EXPECT_EQ(Vec2(f.x[i], f.y[i]), is.position);
         EXPECT_EQ(Vec2(f.halfWidth[i], f.halfHeight[i]), is.halfSize);
+        EXPECT_EQ(f.mass[i], is.mass);
     }
 }
 
@@ -141,7 +142,7 @@ TEST(BodyMirror, IsAskedByEverybodyWhoNeedsTheStateAndByNobodyElse) {
     EXPECT_EQ(asks([](Store s) { s.movingCount(); }), 0);
     EXPECT_EQ(asks([](Store s) { s.setPrecision(Precision::Double); }), 0) << "it has it already";
     EXPECT_EQ(asks([](Store s) { s.halfSize(BodyRef::moving(1)); }), 0) << "no step changes it";
-    EXPECT_EQ(asks([](Store s) { s.mass(1); }), 0) << "no step changes it";
+    EXPECT_EQ(asks([](Store s) { s.mass(BodyRef::moving(1)); }), 0) << "no step changes it";
     EXPECT_EQ(asks([](Store s) { s.reserve(100); }), 0);
     EXPECT_EQ(asks([](Store s) { s.newestIs(nullptr); }), 0);
     EXPECT_EQ(asks([](Store s) { s.replace(BodyStore::AnyColumns{}, true, {}); }), 0);
@@ -226,6 +227,7 @@ TEST(BodyStore, KnowsWhetherItWasEditedSinceALawAdvancedIt) {
     expectEdit("position", [&] { store.setPosition(BodyRef::fixed(1), {0, 0}); });
     expectEdit("size", [&] { store.setHalfSize(BodyRef::moving(1), {1, 1}); });
     expectEdit("velocity", [&] { store.setVelocityAndMass(1, {0, 0}, 1); });
+    expectEdit("mass of a static body", [&] { store.setStaticMass(1, 2); });
     expectEdit("replace", [&] { store.replace(numberedStore().columns(), true, {}); });
     store.replace(numberedStore().columns(), false, {});
     EXPECT_FALSE(store.edited()) << "a run that is resumed goes on as if nothing had happened";
@@ -409,7 +411,7 @@ TEST(BodyStore, TheListOfColumnsNamesThemAll) {
     numberLawState(store);
     const auto& [m, f] = std::get<BodyStore::Columns<double>>(store.columns());
     EXPECT_EQ(columnsOf(m, 6), 11u);
-    EXPECT_EQ(columnsOf(f, 4), 6u);
+    EXPECT_EQ(columnsOf(f, 4), 7u);
     // A column that is not on the list has a place in the type and none in its sum.
     std::size_t bytes = 0;
     const auto add = [&](ColumnInfo, const auto& column) { bytes += sizeof column; };

@@ -142,6 +142,34 @@ TEST(Body, OthersStayWhatTheyAreWhenBodiesInTheMiddleDissolveOrStopMoving) {
     });
 }
 
+TEST(Body, HasItsMassAgainAfterItWasStatic) {
+    for (const Precision precision : {Precision::Double, Precision::Float}) {
+        World world;
+        const Entity e = makeBody(world, {3, 4}, {.velocity = {1, 0}, .mass = 5});
+        const Entity wall = makeBody(world, {30, 40}, {.isStatic = true});
+        const auto toggle = [](World& of, Entity entity) {
+            PhysicsBody body = of.get<PhysicsBody>(entity);
+            body.isStatic = !body.isStatic;
+            body.velocity = {0, 0};
+            of.set(entity, body);
+        };
+        toggle(world, e);
+        world.setPrecision(precision);
+        EXPECT_EQ(world.get<PhysicsBody>(e).mass, 5);
+        EXPECT_EQ(world.get<PhysicsBody>(wall).mass, 1);
+        toggle(world, e);
+        EXPECT_EQ(world.get<PhysicsBody>(e).mass, 5);
+        toggle(world, e);
+        world.set(e, PhysicsBody{.mass = 7, .isStatic = true});
+        World copy = world.clone();
+        toggle(copy, e);
+        EXPECT_EQ(copy.get<PhysicsBody>(e).mass, 7);
+        world.set(e, PhysicsBody{.mass = 0, .isStatic = true});
+        toggle(world, e);
+        EXPECT_EQ(world.get<PhysicsBody>(e).mass, 1) << "0 is no mass that could come back";
+    }
+}
+
 TEST(Body, SwitchesBetweenStaticAndMoving) {
     World world;
     const Entity e = makeBody(world, {3, 4}, {.velocity = {1, 0}, .mass = 5});
