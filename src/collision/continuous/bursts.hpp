@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "collision/rules/event_order.hpp"
+#include "collision/rules/mix64.hpp"
 
 namespace quadrille {
 
@@ -52,30 +54,36 @@ class Bursts {
     void take(Bursts& share) {
         if (share.cell_ < cell_) return;
         if (share.cell_ > cell_) begin(share.cell_);
-        for (const auto& [body, counts] : share.settled().counts_) {
-            Counts& own = counts_[body];
-            own = {std::max(own.events, counts.events), std::max(own.overlaps, counts.overlaps)};
+        for (const Entry& entry : share.settled().entries_) {
+            if (entry.cell != share.number_) continue;
+            Counts& own = countsOf(entry.row);
+            own = {std::max(own.events, entry.counts.events),
+                   std::max(own.overlaps, entry.counts.overlaps)};
         }
     }
 
-    std::size_t bytes() const {
-        return counts_.bucket_count() * sizeof(void*) + counts_.size() * 32;
-    }
+    std::size_t bytes() const { return entries_.capacity() * sizeof(Entry); }
 
   private:
     // A length of 9e-10 s; a power of 2, so that no rounding is in it.
     static constexpr double cellsPerSecond = 0x1p30;
-    static constexpr std::size_t fewBuckets = 256;
+    static constexpr std::size_t fewEntries = 256;
+
+    /// An entry of a hash table (open addressing, linear probing) that a new cell empties at no
+    /// cost.
+    struct Entry {
+        std::uint64_t cell = 0;  ///< the number that it is of; of another one, it is free
+        std::uint32_t row = 0;
+        Counts counts;
+    };
 
     void begin(double cell) {
         cell_ = cell;
         alone_ = false;
-        if (counts_.empty()) return;
-        if (counts_.bucket_count() > fewBuckets) {
-            counts_ = {};  // emptying many takes long
-        } else {
-            counts_.clear();
-        }
+        ++number_;
+        used_ = 0;
+        // Shares copy the table.
+        if (entries_.size() > fewEntries) entries_ = {};
     }
     Counts count(const PairEvent& event, bool deep) {
         const Counts most = add(event.a, deep);
@@ -84,17 +92,39 @@ class Bursts {
         return {std::max(most.events, other.events), std::max(most.overlaps, other.overlaps)};
     }
     Counts add(std::uint32_t row, bool deep) {
-        Counts& counts = counts_[row];
+        Counts& counts = countsOf(row);
         ++counts.events;
         counts.overlaps += deep;
         return counts;
     }
+    Counts& countsOf(std::uint32_t row) {
+        if (2 * used_ >= entries_.size()) grow();
+        std::size_t i = mix64(row) & (entries_.size() - 1);
+        while (entries_[i].cell == number_ && entries_[i].row != row) {
+            i = (i + 1) & (entries_.size() - 1);
+        }
+        if (entries_[i].cell != number_) {
+            entries_[i] = {number_, row, {}};
+            ++used_;
+        }
+        return entries_[i].counts;
+    }
+    void grow() {
+        std::vector<Entry> old(std::max<std::size_t>(16, 2 * entries_.size()));
+        old.swap(entries_);
+        used_ = 0;
+        for (const Entry& entry : old) {
+            if (entry.cell == number_) countsOf(entry.row) = entry.counts;
+        }
+    }
 
     double cell_ = -1;
+    std::uint64_t number_ = 1;  // of the cells so far
     PairEvent first_{};
     bool firstDeep_ = false;
     bool alone_ = false;  // only `first_` has happened in this cell
-    std::unordered_map<std::uint32_t, Counts> counts_;
+    std::vector<Entry> entries_;
+    std::size_t used_ = 0;
 };
 
 }  // namespace quadrille
