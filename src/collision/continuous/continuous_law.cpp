@@ -292,7 +292,7 @@ void ContinuousLaw<Real, Path>::findAll(const Search& search, double from, doubl
         return;
     }
     team_.run(workers, [&](unsigned worker) {
-        found_[worker].events.beginShare(events_.queue, {});
+        found_[worker].events.collect();
         findShare(worker, found_[worker].events);
     });
     for (Found& found : found_) events_.queue.take(found.events);
@@ -321,14 +321,24 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     const bool shares = stretch >= (step.to - now) / 16;
     if (shares) to = std::min(to, now + stretch);
     const Motion motion = motionOf(bodies);
-    const Search search(motion, neighbours_, stamps_);
+    const Search search(motion, neighbours_, stamps_, sketches_);
     if (candidates_.update(bodies.read(), partition)) {
         neighbours_.link(bodies.moving.size(), candidates_);
         // Meetings do not depend on steps, so they are found for as long as the pairs last. What an
         // event has led to at this very moment stays.
+        sketches_.draw(motion, bodies.moving.size(),
+                       {.from = now,
+                        .to = horizon_,
+                        .farthest = farthest_,
+                        .fastest = gainOf() * (fastest_ + gravityNow_ * (horizon_ - now)),
+                        .largest = largest_,
+                        .gravity = std::max(std::abs(gravityX_), std::abs(gravityY_))},
+                       team_);
         events_.queue.forgetAfter(now);
         events_.queue.begin(to, eventOrder(motion.bodies));
+        events_.queue.collect();
         findAll(search, now, horizon_);
+        events_.queue.spread(now, horizon_);
         step.counts.pairsTested += candidates_.size();
         noteDensity(bodies.moving.size());
         mostEvents_ = eventsWorthTheLife(bodies.moving.size());
@@ -348,7 +358,6 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
         eventsSince_ += step.counts.contacts - before;
         return to;
     }
-    loop.prefetch();
     const std::uint64_t usual = usualEventsPerBody * (bodies.moving.size() + 1);
     const auto count = [&](const PairEvent& event) {
         if (++step.counts.contacts > usual) requireProgress(bodies.read(), event);
@@ -432,7 +441,7 @@ bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const S
 template <class Real, class Path>
 std::size_t ContinuousLaw<Real, Path>::bytes() const {
     std::size_t sum =
-        candidates_.bytes() + neighbours_.bytes() + events_.bytes() +
+        candidates_.bytes() + neighbours_.bytes() + sketches_.bytes() + events_.bytes() +
         ownBounds_.capacity() * sizeof(double) + ownReach_.capacity() * sizeof(Real) +
         stamps_.capacity() * sizeof(std::uint32_t) + found_.capacity() * sizeof(Found) +
         eventsOf_.capacity() * sizeof(std::uint32_t) + records_.capacity() * sizeof(ContactRecord);

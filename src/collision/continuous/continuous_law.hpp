@@ -95,6 +95,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
 
     ThreadsCandidatePairs<Real> candidates_;
     Neighbours neighbours_;
+    PathSketches<Real, Path> sketches_;
     std::vector<std::uint32_t> stamps_;  // changes of each body so far
     std::vector<Found> found_;           // by each worker
     EventLoopState events_;

@@ -5,10 +5,10 @@
 
 namespace quadrille {
 
-/// The body's path is another one: what was found from the old one is void.
+/// Notes that the body's path is another one.
 template <class Real, class Path>
 void EventLoop<Real, Path>::changed(std::uint32_t row) {
-    ++search_.stamp(row);
+    search_.changed(row);
     state_.changed.push_back(row);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "collision/continuous/event_loop_state.hpp"
 #include "collision/continuous/event_search.hpp"
@@ -54,21 +55,6 @@ class EventLoop {
         state_.changed.clear();
     }
 
-    /// Brings what the events will read into the cache, all at once: one after the other they would
-    /// wait for each.
-    void prefetch() const {
-#if defined(__GNUC__)
-        for (const PairEvent& event : state_.queue.due()) {
-            for (const BodyRef body : {BodyRef::moving(event.a), event.b}) {
-                if (body.isStatic()) continue;
-                for (const BodyRef b : search_.neighbours()[body.row()]) {
-                    if (!b.isStatic()) __builtin_prefetch(motion_.bodies.moving.anchors + b.row());
-                }
-            }
-        }
-#endif
-    }
-
     /// Carries out the events of the window. Calls `admit(event)` before each, which ends the loop
     /// if it is false; `collided(event, record)` after a collision; `othersOf(row)` for the bodies
     /// that one that has changed may meet. Returns whether all were carried out: an event that
@@ -77,7 +63,9 @@ class EventLoop {
     template <class Admit, class Collided, class OthersOf>
     bool run(Admit&& admit, Collided&& collided, OthersOf&& othersOf) {
         std::uint64_t carriedOut = 0;
-        while (!state_.queue.empty()) {
+        const auto begun = [&](std::span<const PairEvent> events) { search_.prefetch(events); };
+        begun(state_.queue.present());
+        while (state_.queue.more(begun)) {
             const PairEvent event = state_.queue.pop();
             if (!search_.isCurrent(event)) continue;
             stoppedAt_ = event.time;

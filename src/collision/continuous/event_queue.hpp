@@ -2,46 +2,86 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "collision/continuous/event_lists.hpp"
 #include "collision/rules/event_order.hpp"
 
 namespace quadrille {
 
 /// Events to come, the earliest first in an order that is complete, so that the one in which they
-/// are pushed does not matter. Those of the present step lie in a heap, which stays small that way;
-/// later ones in no order.
+/// are pushed does not matter.
+///
+/// A calendar (Brown 1988, "Calendar queues"): time is cut into spans of one length. The events of
+/// the present span lie in a heap, which stays so small that it costs the same however many bodies
+/// there are; those of later spans lie in no order.
 class EventQueue {
   public:
-    /// Goes on to the step that ends at `to`, in s.
+    /// Goes on to the step that ends at `to`, in s. The order must be the same as long as there are
+    /// events.
     void begin(double to, const EventOrder& order) {
         end_ = to;
         order_ = order;
-        std::size_t kept = 0;
-        for (const PairEvent& event : later_) {
-            if (event.time > to) {
-                later_[kept++] = event;
-            } else {
-                heap_.push_back(event);
-            }
-        }
-        later_.resize(kept);
+    }
+
+    /// From here on events are only pushed, until spread().
+    void collect() {
+        const auto set = [&](const PairEvent& event) { later_.push(0, event); };
+        later_.reserve(1);
+        for (std::size_t span = present_ + 1; span < later_.size(); ++span) later_.drain(span, set);
+        std::for_each(heap_.begin(), heap_.end(), set);
+        heap_.clear();
+        collecting_ = true;
+    }
+
+    /// Cuts the time from `from` to `to`, in s, into spans that have a few of the events each.
+    void spread(double from, double to) {
+        collect();
+        collecting_ = false;
+        count_ = std::clamp<std::size_t>(later_.count(0) / eventsOfSpan, 1, mostSpans);
+        later_.reserve(count_ + 1);
+        from_ = from;
+        to_ = to;
+        const double perSecond = static_cast<double>(count_) / (to - from);
+        perSecond_ = perSecond <= std::numeric_limits<double>::max() ? perSecond : 0;
+        present_ = 0;
+        later_.drain(0, [&](const PairEvent& event) {
+            const std::size_t span = spanOf(event.time);
+            span == 0 ? heap_.push_back(event) : later_.push(span, event);
+        });
         std::make_heap(heap_.begin(), heap_.end(), order_);
     }
 
     void push(const PairEvent& event) {
-        if (event.time > end_) {
-            later_.push_back(event);
+        const std::size_t span = collecting_ ? 0 : spanOf(event.time);
+        if (collecting_ || span > present_) {
+            later_.push(span, event);
             return;
         }
         heap_.push_back(event);
         std::push_heap(heap_.begin(), heap_.end(), order_);
     }
 
-    /// Whether nothing more happens in the present step.
-    bool empty() const { return heap_.empty(); }
+    /// Whether anything more happens in the present step. Calls `begun(events)` where a span with
+    /// events begins.
+    template <class Begun>
+    bool more(Begun&& begun) {
+        while (heap_.empty() && present_ < lastSpan()) {
+            ++present_;
+            if (later_.empty(present_)) continue;
+            later_.drain(present_, [&](const PairEvent& event) { heap_.push_back(event); });
+            std::make_heap(heap_.begin(), heap_.end(), order_);
+            begun(std::span<const PairEvent>(heap_));
+        }
+        return !heap_.empty() && heap_.front().time <= end_;
+    }
+    bool empty() {
+        return !more([](std::span<const PairEvent>) {});
+    }
 
+    /// The first event; there must be more().
     PairEvent pop() {
         std::pop_heap(heap_.begin(), heap_.end(), order_);
         const PairEvent event = heap_.back();
@@ -49,52 +89,110 @@ class EventQueue {
         return event;
     }
 
-    /// The events known for the present step, in no order.
-    std::span<const PairEvent> due() const { return heap_; }
+    /// The events of the present span, in no order.
+    std::span<const PairEvent> present() const { return heap_; }
+
+    /// Calls `function(event)` for the events known for the present step, in no order.
+    template <class Function>
+    void forEachDue(Function&& function) const {
+        const auto call = [&](const PairEvent& event) {
+            if (event.time <= end_) function(event);
+        };
+        std::for_each(heap_.begin(), heap_.end(), call);
+        for (std::size_t span = present_ + 1; span <= lastSpan(); ++span)
+            later_.forEach(span, call);
+    }
+    std::size_t dueCount() const {
+        std::size_t count = 0;
+        forEachDue([&](const PairEvent&) { ++count; });
+        return count;
+    }
 
     /// Forgets what is later than a time.
     void forgetAfter(double time) {
-        const auto later = [time](const PairEvent& event) { return event.time > time; };
-        std::erase_if(heap_, later);
-        std::erase_if(later_, later);
+        forget(later_.size(), [time](const PairEvent& event) { return event.time > time; });
     }
 
     void clear() {
         heap_.clear();
-        later_.clear();
+        for (std::size_t span = 0; span < later_.size(); ++span) later_.drain(span, ignore);
+        collecting_ = false;
     }
 
     // ---- or, where several queues share a step, each with some of its events
 
     /// Goes on to the step of another queue, with these of its events.
     void beginShare(const EventQueue& whole, std::span<const PairEvent> events) {
-        end_ = whole.end_;
-        order_ = whole.order_;
-        heap_.assign(events.begin(), events.end());
-        std::make_heap(heap_.begin(), heap_.end(), order_);
-        later_.clear();
+        clear();
+        begin(whole.end_, whole.order_);
+        double first = end_;
+        collect();
+        for (const PairEvent& event : events) {
+            first = std::min(first, event.time);
+            push(event);
+        }
+        spread(first, end_);
     }
 
     /// Forgets the events of the present step.
-    void dropDue() { heap_.clear(); }
+    void dropDue() {
+        forget(lastSpan() + 1, [this](const PairEvent& event) { return event.time <= end_; });
+    }
 
     /// Takes all events of a queue that shared the step.
     void take(EventQueue& share) {
-        for (const PairEvent& event : share.heap_) push(event);
-        later_.insert(later_.end(), share.later_.begin(), share.later_.end());
+        const auto get = [&](const PairEvent& event) { push(event); };
+        std::for_each(share.heap_.begin(), share.heap_.end(), get);
+        for (std::size_t span = 0; span < share.later_.size(); ++span)
+            share.later_.drain(span, get);
         share.clear();
     }
 
     /// Whether p comes after q.
     bool isLater(const PairEvent& p, const PairEvent& q) const { return order_(p, q); }
 
-    std::size_t bytes() const { return (heap_.capacity() + later_.capacity()) * sizeof(PairEvent); }
+    std::size_t bytes() const { return heap_.capacity() * sizeof(PairEvent) + later_.bytes(); }
 
   private:
+    static constexpr std::size_t eventsOfSpan = 32;
+    static constexpr std::size_t mostSpans = 1 << 20;
+
+    /// Later times have no lower span, whatever is rounded. What is beyond the calendar has one of
+    /// its own behind it.
+    std::size_t spanOf(double time) const {
+        if (time > to_) return count_;
+        const double span = (time - from_) * perSecond_;
+        if (!(span > 0)) return 0;
+        return std::min(static_cast<std::size_t>(span), count_ - 1);
+    }
+    /// In which the present step ends.
+    std::size_t lastSpan() const { return spanOf(end_); }
+
+    static void ignore(const PairEvent&) {}
+    /// Forgets events of the spans before `last` that satisfy `gone`.
+    template <class Gone>
+    void forget(std::size_t last, Gone&& gone) {
+        for (std::size_t span = present_ + 1; span < std::min(last, later_.size()); ++span) {
+            later_.drain(span, [&](const PairEvent& event) {
+                if (!gone(event)) later_.push(span, event);
+            });
+        }
+        std::erase_if(heap_, gone);
+        std::make_heap(heap_.begin(), heap_.end(), order_);
+    }
+
     EventOrder order_;
-    double end_ = -1;  // s
+    double end_ = -1;  // s, of the present step
+
+    // The calendar: without one, all time is one span.
+    double from_ = 0;  // s
+    double to_ = std::numeric_limits<double>::infinity();
+    double perSecond_ = 0;     // spans
+    std::size_t count_ = 1;    // spans up to to_
+    std::size_t present_ = 0;  // the span whose events lie in the heap
     std::vector<PairEvent> heap_;
-    std::vector<PairEvent> later_;
+    EventLists later_;         // of each span behind it
+    bool collecting_ = false;  // all events lie in list 0, which is free otherwise
 };
 
 }  // namespace quadrille

@@ -9,7 +9,7 @@ template <class Real>
 bool SharedEvents<Real>::run(const BodyView<Real>& bodies, const Search& search,
                              EventLoopState& whole, const EventWindow& window, double way,
                              std::vector<ContactRecord>* records, ResolveCounts& counts) {
-    if (team_.workersFor(whole.queue.due().size(), &Thresholds::events) == 1) return false;
+    if (team_.workersFor(whole.queue.dueCount(), &Thresholds::events) == 1) return false;
     if (waiting_ > 0) {
         --waiting_;
         return false;
@@ -30,9 +30,9 @@ bool SharedEvents<Real>::tryRun(const BodyView<Real>& bodies, const Search& sear
                                 EventLoopState& whole, const EventWindow& window, double way,
                                 bool record) {
     due_.clear();
-    for (const PairEvent& event : whole.queue.due()) {
+    whole.queue.forEachDue([&](const PairEvent& event) {
         if (search.isCurrent(event)) due_.push_back(event);
-    }
+    });
     const bool split = islands_.split(bodies, search.neighbours(), due_, way);
     if (split) {
         const Bursts& bursts = whole.bursts.settled();
@@ -98,7 +98,6 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
     EventWindow part = window;
     part.share = true;
     Loop loop(search, own.state, part);
-    loop.prefetch();
     own.complete = loop.run(admit, collided, othersOf);
     for (const Before& before : own.before) {
         if (search.stamp(before.row) != before.stamp) islands_.markChanged(before.row);
@@ -138,7 +137,7 @@ void SharedEvents<Real>::undo(const Search& search) {
             m.anchors[before.row] = before.anchor;
             m.vx[before.row] = before.anchor.vx;
             m.vy[before.row] = before.anchor.vy;
-            search.stamp(before.row) = before.stamp;
+            search.restore(before.row, before.stamp);
         }
     }
 }

@@ -7,7 +7,7 @@ template <class Real, class Path>
 bool SupportEnds<Real, Path>::release(std::uint32_t row, int axis, double now) {
     const auto others = search_.neighbours()[row];
     if (!quadrille::release(search_.motion(), row, others, axis, now)) return false;
-    ++search_.stamp(row);
+    search_.changed(row);
     state_.changed.push_back(row);
     return true;
 }

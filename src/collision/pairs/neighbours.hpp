@@ -47,6 +47,18 @@ class Neighbours {
         return {others_.data() + starts_[row], others_.data() + starts_[row + 1]};
     }
 
+    /// Brings into the cache where the list of a body begins; then, the list.
+    void prefetch(std::uint32_t row) const {
+#if defined(__GNUC__)
+        __builtin_prefetch(starts_.data() + row);
+#endif
+    }
+    void prefetchList(std::uint32_t row) const {
+#if defined(__GNUC__)
+        __builtin_prefetch(others_.data() + starts_[row]);
+#endif
+    }
+
     std::size_t bytes() const {
         return starts_.capacity() * sizeof(std::uint32_t) + others_.capacity() * sizeof(BodyRef);
     }

@@ -155,7 +155,7 @@ TEST(EventQueue, LaterEventsWaitForTheirStep) {
     EventQueue queue;
     queue.begin(1, numbers.order());
     for (const double time : {2.5, 0.5, 1.5, 1.0}) queue.push(at(time));
-    EXPECT_EQ(queue.due().size(), 2u);
+    EXPECT_EQ(queue.dueCount(), 2u);
     EXPECT_EQ(queue.pop().time, 0.5);
     EXPECT_EQ(queue.pop().time, 1.0) << "the end belongs to the step";
     EXPECT_TRUE(queue.empty());
@@ -172,13 +172,67 @@ TEST(EventQueue, LaterEventsWaitForTheirStep) {
     EXPECT_TRUE(queue.empty());
 }
 
+/// A calendar changes no order, wherever its spans lie: among the events, beside them, or all at
+/// one time; nor whether events are pushed before or while it runs.
+TEST(EventQueue, ACalendarKeepsTheOrder) {
+    const Numbers numbers;
+    Random random(85);
+    const std::vector<PairEvent> events = shuffledEvents(random);
+    EventQueue plain;
+    plain.begin(3, numbers.order());
+    for (const PairEvent& event : events) plain.push(event);
+    const auto expected = popAll(plain);
+    const double spans[][2] = {{0, 3}, {0, 1e-3}, {1, 1}, {-1e300, 1e300}, {1, 1.5}, {7, 9}};
+    EventQueue queue;  // one for all, so that a calendar follows another
+    for (const auto& [from, to] : spans) {
+        SCOPED_TRACE(std::to_string(from) + " to " + std::to_string(to));
+        queue.begin(0.5, numbers.order());
+        queue.collect();
+        for (std::size_t i = 0; i < events.size() / 2; ++i) queue.push(events[i]);
+        queue.spread(from, to);
+        for (std::size_t i = events.size() / 2; i < events.size(); ++i) queue.push(events[i]);
+        std::vector<PairEvent> popped;
+        for (const double end : {0.5, 1.0, 2.0, 3.0}) {
+            queue.begin(end, numbers.order());
+            EXPECT_EQ(queue.dueCount() == 0, queue.empty());
+            while (!queue.empty()) {
+                popped.push_back(queue.pop());
+                ASSERT_LE(popped.back().time, end);
+            }
+        }
+        ASSERT_EQ(popped.size(), expected.size());
+        for (std::size_t i = 0; i < popped.size(); ++i) {
+            ASSERT_EQ(keys(popped[i]), keys(expected[i])) << i;
+        }
+    }
+}
+
+TEST(EventQueue, ACalendarForgetsWhatIsLater) {
+    const Numbers numbers;
+    EventQueue queue;
+    queue.begin(100, numbers.order());
+    queue.collect();
+    for (int i = 100; i > 0; --i) queue.push(at(i));
+    queue.spread(0, 100);
+    EXPECT_EQ(queue.pop().time, 1);
+    queue.forgetAfter(50);
+    EXPECT_EQ(queue.dueCount(), 49u);
+    queue.begin(20, numbers.order());
+    queue.dropDue();
+    queue.begin(100, numbers.order());
+    const auto events = popAll(queue);
+    ASSERT_EQ(events.size(), 30u);
+    EXPECT_EQ(events.front().time, 21);
+}
+
 TEST(EventQueue, SharesOfAStepComeTogetherAgain) {
     const Numbers numbers;
     Random random(84);
     EventQueue whole;
     whole.begin(1, numbers.order());
     for (const PairEvent& event : shuffledEvents(random)) whole.push(event);
-    const std::vector<PairEvent> due(whole.due().begin(), whole.due().end());
+    std::vector<PairEvent> due;
+    whole.forEachDue([&](const PairEvent& event) { due.push_back(event); });
     ASSERT_GT(due.size(), 20u);
     const std::size_t half = due.size() / 2;
 
@@ -186,7 +240,7 @@ TEST(EventQueue, SharesOfAStepComeTogetherAgain) {
     EventQueue second;
     first.beginShare(whole, {due.data(), half});
     second.beginShare(whole, {due.data() + half, due.size() - half});
-    EXPECT_EQ(first.due().size(), half);
+    EXPECT_EQ(first.dueCount(), half);
     first.pop();
     first.push(at(0.5, 3));
     second.push(at(5, 2));
@@ -204,7 +258,7 @@ TEST(EventQueue, SharesOfAStepComeTogetherAgain) {
         ASSERT_FALSE(whole.isLater(events[i - 1], events[i])) << i;
     }
     whole.begin(5, numbers.order());
-    EXPECT_EQ(whole.due().size(), due.size() + 1) << "those of time 2, and the new one";
+    EXPECT_EQ(whole.dueCount(), due.size() + 1) << "those of time 2, and the new one";
 }
 
 }  // namespace
