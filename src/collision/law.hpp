@@ -16,6 +16,7 @@
 namespace quadrille {
 
 struct ResolveCounts {
+    std::uint64_t events = 0;  ///< of an exact law, whether bodies touched in them or not
     std::uint64_t contacts = 0;
     std::uint64_t collisions = 0;
     std::uint64_t pairsTested = 0;

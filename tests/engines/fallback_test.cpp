@@ -79,7 +79,7 @@ TEST(MissingDevice, LeavesThePartitionToTheThreads) {
                                  .threads = 3,
                                  .fallback = true});
         EXPECT_EQ(sim.threads(), 3);
-        Simulation sequential(crowd(), {.partitioner = partitioner});
+        Simulation sequential(crowd(), {.partitioner = partitioner, .law = Law::Impulse});
         EXPECT_EQ(sequential.threads(), 1);
         sim.run(5);
         sequential.run(5);

@@ -219,6 +219,7 @@ TEST_P(PermutedOnDevice, HaveTheBitsOfRowsInOrderOfCreation) {
     const auto& [cells, precision] = GetParam();
     if (cells.name == "everyTen") GTEST_SKIP() << "misses pairs, and others in each run";
     SimulationConfig config{.partitioner = cells.config,
+                            .law = Law::Impulse,
                             .precision = precision,
                             .step = {.gravity = {0, -30}, .restitution = 0.8},
                             .keepContacts = true};

@@ -64,8 +64,8 @@ TEST(CudaResolver, FollowsBodiesThatComeAndGoAndAreEdited) {
 
 TEST(CudaResolver, FollowsAChangeOfPartitioner) {
     QUADRILLE_NEEDS_DEVICE();
-    Simulation device(someBoxes(800), {.resolver = ResolverKind::Cuda});
-    Simulation host(someBoxes(800));
+    Simulation device(someBoxes(800), {.law = Law::Impulse, .resolver = ResolverKind::Cuda});
+    Simulation host(someBoxes(800), {.law = Law::Impulse});
     for (const PartitionerConfig& cells :
          {PartitionerConfig(StaticGrid{}), PartitionerConfig(SemiStaticQuadtree{}),
           PartitionerConfig(BruteForce{}), PartitionerConfig(Quadtree{})}) {
@@ -106,14 +106,15 @@ TEST(CudaResolver, RunsSeveralSimulationsAtOnce) {
     std::vector<std::thread> threads;
     for (int i = 0; i < runs; ++i) {
         threads.emplace_back([&hashes, i] {
-            Simulation sim(someBoxes(400 + 100 * (i / 2)), {.resolver = ResolverKind::Cuda});
+            Simulation sim(someBoxes(400 + 100 * (i / 2)),
+                           {.law = Law::Impulse, .resolver = ResolverKind::Cuda});
             sim.run(100);
             hashes[i] = stateHash(sim.world());
         });
     }
     for (std::thread& thread : threads) thread.join();
     for (int i = 0; i < runs; ++i) {
-        Simulation host(someBoxes(400 + 100 * (i / 2)));
+        Simulation host(someBoxes(400 + 100 * (i / 2)), {.law = Law::Impulse});
         host.run(100);
         EXPECT_EQ(hashes[i], stateHash(host.world())) << i;
     }
@@ -121,8 +122,10 @@ TEST(CudaResolver, RunsSeveralSimulationsAtOnce) {
 
 TEST(CudaResolver, KeepsCountOfThePhases) {
     QUADRILLE_NEEDS_DEVICE();
-    Simulation sim(someBoxes(2000),
-                   {.partitioner = Quadtree{}, .resolver = ResolverKind::Cuda, .profile = true});
+    Simulation sim(someBoxes(2000), {.partitioner = Quadtree{},
+                                     .law = Law::Impulse,
+                                     .resolver = ResolverKind::Cuda,
+                                     .profile = true});
     sim.run(3);
     const StepReport& report = sim.step();
     for (const Phase phase : {Phase::Integrate, Phase::Partition, Phase::Flatten,
@@ -133,7 +136,10 @@ TEST(CudaResolver, KeepsCountOfThePhases) {
 }
 
 SimulationConfig limited(bool fallback) {
-    return {.resolver = ResolverKind::Cuda, .cuda = {.memoryLimit = 4 << 20}, .fallback = fallback};
+    return {.law = Law::Impulse,
+            .resolver = ResolverKind::Cuda,
+            .cuda = {.memoryLimit = 4 << 20},
+            .fallback = fallback};
 }
 
 /// More bodies than 4 MiB hold, added on the way.
@@ -148,7 +154,7 @@ void addMany(World& world) {
 TEST(CudaResolver, GoesOnSequentiallyWhenMemoryRunsOut) {
     QUADRILLE_NEEDS_DEVICE();
     Simulation device(someBoxes(500), limited(true));
-    Simulation host(someBoxes(500), {.partitioner = Quadtree{}});
+    Simulation host(someBoxes(500), {.partitioner = Quadtree{}, .law = Law::Impulse});
     device.run(20);
     host.run(20);
     EXPECT_EQ(device.resolverFailure(), "");
@@ -180,7 +186,8 @@ TEST(CudaResolver, SaysHowMuchMemoryItLacks) {
 TEST(CudaResolver, IsADeviceErrorWithoutADevice) {
     if (findCudaDevice().usable()) GTEST_SKIP() << "there is a device";
     EXPECT_THROW(Simulation(someBoxes(5), {.resolver = ResolverKind::Cuda}), DeviceError);
-    Simulation sim(someBoxes(5), {.resolver = ResolverKind::Cuda, .fallback = true});
+    Simulation sim(someBoxes(5),
+                   {.law = Law::Impulse, .resolver = ResolverKind::Cuda, .fallback = true});
     EXPECT_EQ(sim.config().resolver, ResolverKind::Sequential);
     EXPECT_EQ(sim.resolverFailure(), "cuda: " + findCudaDevice().reason);
     sim.run(3);

@@ -353,22 +353,23 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     const auto neighboursOf = [&](std::uint32_t row) { return neighbours_[row]; };
     loop.releaseFromChanged(now);
     loop.findForChanged(now, neighboursOf);
-    const std::uint64_t before = step.counts.contacts;
+    const std::uint64_t before = step.counts.events;
     if (shares && runShared(bodies, search, window, now, step)) {
-        eventsSince_ += step.counts.contacts - before;
+        eventsSince_ += step.counts.events - before;
         return to;
     }
     const std::uint64_t usual = usualEventsPerBody * (bodies.moving.size() + 1);
     const auto count = [&](const PairEvent& event) {
-        if (++step.counts.contacts > usual) requireProgress(bodies.read(), event);
+        if (++step.counts.events > usual) requireProgress(bodies.read(), event);
         return true;
     };
     const auto collided = [&](const PairEvent&, const ContactRecord& record) {
+        ++step.counts.contacts;
         ++step.counts.collisions;
         if (step.keepContacts) records_.push_back(record);
     };
     const bool complete = loop.run(count, collided, neighboursOf);
-    eventsSince_ += step.counts.contacts - before;
+    eventsSince_ += step.counts.events - before;
     if (complete) return to;
     // A body has become too fast, or pairs too dear; the search goes on with another partition.
     outran_ = eventsSince_ <= mostEvents_;

@@ -67,7 +67,7 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
     own.state.bursts = bursts;
 
     const auto admit = [&](const PairEvent& event) {
-        if (++own.counts.contacts > window.mostEvents) return false;
+        if (++own.counts.events > window.mostEvents) return false;
         if (!islands_.belongsTo(event.a, worker)) return false;
         own.before.push_back({event.a, search.stamp(event.a), m.anchors[event.a]});
         if (event.withStatic()) return true;
@@ -77,6 +77,7 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
         return true;
     };
     const auto collided = [&](const PairEvent& event, const ContactRecord& made) {
+        ++own.counts.contacts;
         ++own.counts.collisions;
         if (!record) return;
         // An event may come at once after one that it would have preceded, had it been known.
@@ -123,7 +124,7 @@ bool SharedEvents<Real>::allComplete(std::uint64_t mostEvents) const {
     std::uint64_t events = 0;
     for (const Share& share : shares_) {
         if (!share.complete) return false;
-        events += share.counts.contacts;
+        events += share.counts.events;
     }
     return events <= mostEvents;
 }
@@ -151,6 +152,7 @@ void SharedEvents<Real>::finish(EventLoopState& whole, std::vector<ContactRecord
         EventLoopState& state = share.state;
         whole.queue.take(state.queue);
         whole.bursts.take(state.bursts);
+        counts.events += share.counts.events;
         counts.contacts += share.counts.contacts;
         counts.collisions += share.counts.collisions;
         records_.insert(records_.end(), share.records.begin(), share.records.end());
