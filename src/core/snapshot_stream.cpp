@@ -18,7 +18,8 @@ void SnapshotWriter::text(const std::string& value) {
 }
 
 void SnapshotWriter::commit() {
-    const std::uint64_t sum = checksum_.value();
+    std::uint64_t sum = checksum_.value();
+    toFileOrder(sum);
     out_.stream().write(reinterpret_cast<const char*>(&sum), sizeof sum);
     out_.commit();
 }
@@ -33,6 +34,7 @@ SnapshotReader::SnapshotReader(const std::filesystem::path& file) : file_(file.s
     std::uint64_t expected = 0;
     if (size < sizeof expected) fail("is not a snapshot");
     std::memcpy(&expected, data_.data() + size - sizeof expected, sizeof expected);
+    toFileOrder(expected);
     data_.resize(size - sizeof expected);
     Checksum checksum;
     checksum.add(data_.data(), data_.size());
@@ -48,8 +50,8 @@ void SnapshotReader::read(void* data, std::size_t size) {
 std::string SnapshotReader::text() {
     const auto size = number<std::uint64_t>();
     if (size > left()) fail("ends too early");
-    std::string value(size, '\0');
-    read(value.data(), size);
+    std::string value(static_cast<std::size_t>(size), '\0');
+    read(value.data(), value.size());
     return value;
 }
 

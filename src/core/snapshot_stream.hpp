@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
@@ -36,8 +38,31 @@ template <class T>
 concept PlainRow = PlainNumber<T> || std::same_as<T, BodyRef> || std::same_as<T, Anchor<double>> ||
     std::same_as<T, Anchor<float>>;
 
-/// Writes numbers in the machine's byte order, which the snapshot's header names. The file
-/// appears whole or not at all.
+static_assert(sizeof(BodyRef) == 4 && sizeof(Anchor<double>) == 48 && sizeof(Anchor<float>) == 32,
+              "rows go to files as they lie in memory");
+
+/// From the machine's byte order to that of files, which have the lowest byte first, and back. In
+/// place: a number whose bytes are turned is none that could be passed on.
+template <PlainNumber T>
+void toFileOrder(T& number) {
+    if constexpr (std::endian::native != std::endian::little) {
+        auto* const bytes = reinterpret_cast<unsigned char*>(&number);
+        std::reverse(bytes, bytes + sizeof number);
+    }
+}
+inline void toFileOrder(BodyRef& body) { toFileOrder(body.bits); }
+template <class Real>
+void toFileOrder(Anchor<Real>& a) {
+    for (Real* const value : {&a.x, &a.y, &a.vx, &a.vy}) toFileOrder(*value);
+    for (double* const time : {&a.timeX, &a.timeY}) toFileOrder(*time);
+}
+template <PlainRow T>
+void toFileOrder(std::vector<T>& rows) {
+    for (T& row : rows) toFileOrder(row);
+}
+
+/// Writes a file that has the same bytes whatever machine it is written on, and appears whole or
+/// not at all.
 class SnapshotWriter {
   public:
     explicit SnapshotWriter(const std::filesystem::path& target) : out_(target) {}
@@ -45,12 +70,19 @@ class SnapshotWriter {
     void write(const void* data, std::size_t size);
     template <PlainNumber T>
     void number(T value) {
+        toFileOrder(value);
         write(&value, sizeof value);
     }
     template <PlainRow T>
     void numbers(const std::vector<T>& values) {
         number<std::uint64_t>(values.size());
-        write(values.data(), values.size() * sizeof(T));
+        if constexpr (std::endian::native == std::endian::little) {
+            write(values.data(), values.size() * sizeof(T));
+        } else {
+            std::vector<T> turned = values;
+            toFileOrder(turned);
+            write(turned.data(), turned.size() * sizeof(T));
+        }
     }
     void text(const std::string& value);
 
@@ -73,14 +105,16 @@ class SnapshotReader {
     T number() {
         T value;
         read(&value, sizeof value);
+        toFileOrder(value);
         return value;
     }
     template <PlainRow T>
     std::vector<T> numbers() {
         const auto size = number<std::uint64_t>();
         if (size > left() / sizeof(T)) fail("ends too early");
-        std::vector<T> values(size);
-        read(values.data(), size * sizeof(T));
+        std::vector<T> values(static_cast<std::size_t>(size));
+        read(values.data(), values.size() * sizeof(T));
+        if constexpr (std::endian::native != std::endian::little) toFileOrder(values);
         return values;
     }
     std::string text();

@@ -286,7 +286,8 @@ std::string sealed(std::string bytes) {
     bytes.resize(bytes.size() - sizeof(std::uint64_t));
     Checksum checksum;
     checksum.add(bytes.data(), bytes.size());
-    const std::uint64_t sum = checksum.value();
+    std::uint64_t sum = checksum.value();
+    toFileOrder(sum);
     return bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
 }
 
