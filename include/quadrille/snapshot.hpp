@@ -21,7 +21,7 @@ struct Snapshot {
 
 /// Writes the state of a simulation: entities with their generations, body columns, the built-in
 /// components and names; not components of the user's own types. The file appears whole or not at
-/// all. Throws Error if it cannot be written.
+/// all. Throws Error if it cannot be written, or if `World::validate` finds fault.
 void saveSnapshot(const std::filesystem::path& file, const Simulation& simulation,
                   const std::string& scene, std::uint64_t seed);
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -14,6 +13,7 @@
 #include <quadrille/snapshot.hpp>
 
 #include "core/engine.hpp"
+#include "core/step_fault.hpp"
 #include "core/step_times.hpp"
 #include "core/world_access.hpp"
 #include "parallel/thread_team.hpp"
@@ -29,29 +29,16 @@ constexpr const char* tooManySteps =
     "simulation: beyond 2^53 steps, times are no longer told apart";
 
 void validate(const SimulationConfig& config) {
-    if (!std::isfinite(config.step.dt) || !(config.step.dt > 0)) {
-        throw Error("simulation: dt must be finite and positive");
+    if (const char* fault = stepFault(config.step, config.precision)) {
+        throw Error(std::string("simulation: ") + fault);
     }
-    if (!config.step.gravity.allFinite()) throw Error("simulation: gravity must be finite");
     if (config.threads < 0 || config.threads > mostThreads) {
         throw Error("simulation: the number of threads must be from 1 to " +
                     std::to_string(mostThreads) + ", or 0 for one on each core");
     }
-    if (config.precision == Precision::Float) {
-        const auto dt = static_cast<float>(config.step.dt);
-        if (!std::isfinite(dt) || !(dt > 0)) {
-            throw Error("simulation: dt does not fit single precision");
-        }
-        if (!config.step.gravity.cast<float>().allFinite()) {
-            throw Error("simulation: gravity does not fit single precision");
-        }
-    }
     const int block = config.cuda.blockSize;
     if (block < 32 || block > 1024 || block % 32 != 0) {
         throw Error("simulation: the block size must be a multiple of 32 from 32 to 1024");
-    }
-    if (!(config.step.restitution >= 0 && config.step.restitution <= 1)) {
-        throw Error("simulation: restitution must be from 0 to 1");
     }
     if (config.missedPairsEvery == 0) throw Error("simulation: missedPairsEvery must be positive");
 }

@@ -1,8 +1,10 @@
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -330,6 +332,39 @@ TEST_F(Snapshots, FailureToOpenLeavesNothing) {
     const std::string error = errorOf([&] { saveSnapshot(target, sim, "", 1); });
     EXPECT_NE(error.find(target.string()), std::string::npos) << error;
     EXPECT_EQ(filesInFolder(), 0u);
+}
+
+// A law may leave the numbers that there are in the last step: a snapshot of that could not be
+// read.
+TEST_F(Snapshots, AnUnsoundWorldDoesNotReplaceTheFileOfASoundOne) {
+    Simulation sim(crowd());
+    saveSnapshot(file(), sim, "sound", 1);
+    sim.world().editBodies([](const auto& bodies) {
+        using Real = std::remove_cvref_t<decltype(bodies.moving.vx[0])>;
+        bodies.moving.vx[0] = static_cast<Real>(infinity);
+    });
+    const std::string error = errorOf([&] { saveSnapshot(file(), sim, "unsound", 1); });
+    EXPECT_NE(error.find("velocity is not finite"), std::string::npos) << error;
+    EXPECT_EQ(loadSnapshot(file()).scene, "sound");
+}
+
+// Numbers that a double has and a float has not: refused when the file is read, not when a run
+// begins.
+TEST_F(Snapshots, SettingsThatTheirPrecisionDoesNotHaveAreRefused) {
+    for (const StepSettings& step : {StepSettings{.dt = 1e-60}, StepSettings{.dt = 1e300},
+                                     StepSettings{.gravity = {0, -1e300}}}) {
+        saveSnapshot(file(), Simulation(crowd(1, 5), {.step = step}), "", 1);
+        EXPECT_EQ(errorOfLoading(contentOf(file())), "");
+        World world = crowd(1, 5);
+        Simulation single(std::move(world), {.precision = Precision::Float});
+        saveSnapshot(file(), single, "", 1);
+        std::string bytes = contentOf(file());
+        // After the magic, version, byte order, scene, seed, steps and law.
+        const std::size_t at = bytes.find('\n') + 1 + 4 + 4 + 8 + 8 + 8 + 1;
+        const double values[] = {step.dt, step.gravity.x(), step.gravity.y()};
+        std::memcpy(bytes.data() + at, values, sizeof values);
+        EXPECT_NE(errorOfLoading(sealed(bytes)).find("single precision"), std::string::npos);
+    }
 }
 
 TEST_F(Snapshots, FailureToTakeTheNameLeavesNoPart) {
