@@ -35,8 +35,9 @@ StepParameters<Real> parametersOf(const StepSettings& settings, double start) {
 template <class Real>
 struct Step {
     StepParameters<Real> parameters;
-    double from, to;    ///< s since the start of the run
-    bool keepContacts;  ///< somebody wants to see them afterwards
+    double from, to;       ///< s since the start of the run
+    bool keepContacts;     ///< somebody wants to see them afterwards
+    bool audited = false;  ///< somebody looks at the bodies whenever the law takes over
     PhaseClock& clock;
     ResolveCounts counts{};
 };
@@ -67,6 +68,10 @@ class ContactLaw {
     /// Throws DeviceError, and has then changed nothing.
     virtual double advance(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                            double now, Step<Real>& step) = 0;
+
+    /// Whether positions and velocities are those of the time up to which all is done; else they
+    /// follow from the anchors.
+    virtual bool placed() const { return true; }
 
     /// The contacts of the last step, if it was to keep them, in the order in which they count:
     /// canonical, or of `baseline` that of the cells. Valid until the next one.

@@ -23,6 +23,9 @@ struct LawBodies : MutableBodyView<Real> {
     std::span<std::uint8_t> rests;    ///< the same
     /// Since a law advanced them last, rows were added, removed or edited.
     bool edited = false;
+    /// Positions and velocities are those of the start of the step; else, of an earlier time, and
+    /// the anchors say what they are.
+    bool placed = true;
 
     /// The same over plain pointers, for the rules.
     Bodies<Real> plain() const {

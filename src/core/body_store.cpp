@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <string>
+#include <utility>
 
+#include "collision/rules/paths.hpp"
 #include "core/fits.hpp"
 
 namespace quadrille {
@@ -122,14 +124,39 @@ MutableBodyView<Real> BodyStore::mutableView() {
 
 template <class Real>
 LawBodies<Real> BodyStore::advance(KeptColumns kept, const Physics& physics) {
+    const bool wasEdited = edited() || physics != physics_;
+    std::optional<double> later;
+    if (kept.anchors && !wasEdited) later = std::exchange(placedLater_, {});
     bringNewest();
     auto& m = of<Real>().moving;
     m.anchors.keep(kept.anchors, m.size());
     m.rests.keep(kept.rests, m.size());
-    const bool wasEdited = edited() || physics != physics_;
     advanced_ = revision_;
     physics_ = physics;
-    return {mutableView<Real>(), m.anchors.view(), m.rests.view(), wasEdited};
+    return {mutableView<Real>(), m.anchors.view(), m.rests.view(), wasEdited, !later};
+}
+
+/// Puts the bodies where their anchors say that they are at a time.
+void BodyStore::place(double t) {
+    const auto placeAll = [&]<class Real, class Path>(const LawBodies<Real>& bodies, Path) {
+        const ExactMotion<Real, Path> motion{.bodies = bodies.plain(),
+                                             .gravityX = physics_.gravity.x(),
+                                             .gravityY = physics_.gravity.y(),
+                                             .restitution = physics_.restitution};
+        const auto rows = static_cast<std::uint32_t>(bodies.moving.size());
+        for (std::uint32_t row = 0; row < rows; ++row) motion.place(row, t);
+    };
+    std::visit(
+        [&]<class Real>(Columns<Real>& columns) {
+            auto& m = columns.moving;
+            const LawBodies<Real> bodies{mutableView<Real>(), m.anchors.view(), m.rests.view()};
+            if (physics_.gravity == Vec2(0, 0)) {
+                placeAll(bodies, StraightPath{});
+            } else {
+                placeAll(bodies, FallingPath{});
+            }
+        },
+        columns_);
 }
 
 BodyRef BodyStore::append(const NewBody& body) {

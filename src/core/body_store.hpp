@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -144,13 +145,18 @@ class BodyStore {
 
     /// For an engine: the bodies to be advanced, with the columns that its law keeps. A new row of
     /// such a column is unknown: an anchor of time NaN, a body that does not rest. Where the
-    /// physics are others than last time, it is as if all bodies had been edited.
+    /// physics are others than last time, it is as if all bodies had been edited. A law that keeps
+    /// anchors gets bodies that are to be placed later as they are, and has to say so again.
     template <class Real>
     LawBodies<Real> advance(KeptColumns kept, const Physics& physics = {});
 
     /// From here on the mirror has the newest state, until somebody asks for it; null to forget a
     /// mirror whose state is lost or not wanted.
     void newestIs(BodyMirror* mirror) { mirror_ = mirror; }
+
+    /// From here on the bodies are where their anchors say that they are at time `t`, in s, under
+    /// the physics of the last advance(). They are placed there when somebody wants to know.
+    void placeLater(double t) { placedLater_ = t; }
 
     /// Another one after each edit, and never that of another store.
     std::uint64_t revision() const { return revision_; }
@@ -209,6 +215,7 @@ class BodyStore {
     const Physics& physics() const { return physics_; }
     void replace(AnyColumns columns, bool edited, const Physics& physics) {
         mirror_ = nullptr;
+        placedLater_.reset();
         columns_ = std::move(columns);
         countEdit();
         if (!edited) advanced_ = revision_;
@@ -236,9 +243,12 @@ class BodyStore {
 
     /// Reading may have to write what the mirror knows, which changes nothing for the reader.
     void bringNewest() const {
-        if (mirror_ == nullptr) return;
-        std::exchange(mirror_, nullptr)->fetch(const_cast<BodyStore&>(*this));
+        if (mirror_ != nullptr) {
+            std::exchange(mirror_, nullptr)->fetch(const_cast<BodyStore&>(*this));
+        }
+        if (placedLater_) const_cast<BodyStore&>(*this).place(*std::exchange(placedLater_, {}));
     }
+    void place(double t);
     void countEdit() { revision_ = nextRevision(); }
     static std::uint64_t nextRevision();
 
@@ -247,6 +257,7 @@ class BodyStore {
     std::uint64_t advanced_ = 0;  // the revision that a law knows
     Physics physics_;             // that it knows
     mutable BodyMirror* mirror_ = nullptr;
+    mutable std::optional<double> placedLater_;  // s
 };
 
 template <class Gone, class Moved>

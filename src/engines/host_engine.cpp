@@ -55,11 +55,22 @@ void HostEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport& re
                     .from = window.from,
                     .to = window.to,
                     .keepContacts = window.keepContacts,
+                    .audited = audited,
                     .clock = clock};
+    double now = window.from;
+    // Whether it gets through or not: a step may end in an error.
+    struct Placing {
+        BodyStore& store;
+        const ContactLaw<Real>& law;
+        const double& now;
+        ~Placing() {
+            if (!law.placed()) store.placeLater(now);
+        }
+    } const placing{store, *law_, now};
     if (!window.begun) law_->begin(bodies, step);
     window.begun = true;
     clock.finish(Phase::Integrate);
-    for (double now = window.from; now < window.to;) {
+    while (now < window.to) {
         const auto reach = law_->reach(bodies, now, window.to);
         if (reach) {
             partition(bodies, *reach, report);

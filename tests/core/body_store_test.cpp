@@ -96,6 +96,59 @@ struct FakeMirror : BodyMirror {
     }
 };
 
+/// A store of two bodies whose anchors say more than its columns: they are at x = 10 t and 20 t.
+BodyStore movedStore(double gravity = 0) {
+    BodyStore store;
+    for (std::uint32_t i = 0; i < 2; ++i) store.append(numbered(i));
+    const auto bodies =
+        store.advance<double>({.anchors = true, .rests = gravity != 0},
+                              {.law = Law::Continuous, .gravity = {0, gravity}, .restitution = 1});
+    bodies.anchors[0] = {0, 0, 10, 1, 0, 0};
+    bodies.anchors[1] = {20, 0, 20, 1, 1, 1};
+    return store;
+}
+
+TEST(BodyStore, PlacesBodiesWhenSomebodyLooks) {
+    const auto expectPlaced = [](auto&& look) {
+        BodyStore store = movedStore();
+        store.placeLater(3);
+        look(store);
+        EXPECT_EQ(store.position(BodyRef::moving(0)), Vec2(30, 3));
+        EXPECT_EQ(std::get<BodyStore::Columns<double>>(store.columns()).moving.x.view()[1], 60);
+    };
+    expectPlaced([](BodyStore&) {});
+    expectPlaced([](BodyStore& s) { EXPECT_EQ(s.read<double>().moving.x[1], 60); });
+    expectPlaced([](BodyStore& s) { s.append(numbered(7)); });
+    expectPlaced([](BodyStore& s) { s.permute(Order{0, 1}, Order{}); });
+    expectPlaced([](BodyStore& s) { s.setHalfSize(BodyRef::moving(1), {1, 1}); });
+    expectPlaced([](BodyStore& s) { s.advance<double>({}); });  // a law without anchors
+    expectPlaced([](BodyStore& s) { s.advance<double>({.anchors = true}); });  // other physics
+    BodyStore edited = movedStore();
+    edited.placeLater(3);
+    edited.setPosition(BodyRef::moving(0), {-5, -5});
+    EXPECT_EQ(edited.position(BodyRef::moving(0)), Vec2(-5, -5));
+    EXPECT_EQ(edited.position(BodyRef::moving(1)), Vec2(60, 2));
+}
+
+TEST(BodyStore, PlacesFallingBodiesAndTheirVelocities) {
+    BodyStore store = movedStore(-8);
+    store.placeLater(3);
+    EXPECT_EQ(store.position(BodyRef::moving(0)), Vec2(30, 3 - 36));
+    EXPECT_EQ(store.velocity(0), Vec2(10, 1 - 24));
+}
+
+TEST(BodyStore, ALawThatKeepsAnchorsGetsThemAsTheyAre) {
+    BodyStore store = movedStore();
+    const Physics physics = store.physics();
+    store.placeLater(3);
+    const auto bodies = store.advance<double>({.anchors = true}, physics);
+    EXPECT_FALSE(bodies.placed);
+    EXPECT_EQ(bodies.moving.x[0], 0.125);
+    store.placeLater(4);
+    EXPECT_EQ(store.position(BodyRef::moving(0)), Vec2(40, 4));
+    EXPECT_TRUE(store.advance<double>({.anchors = true}, physics).placed);
+}
+
 TEST(BodyMirror, IsAskedOnceByWhoeverReadsFirst) {
     BodyStore store = numberedStore();
     FakeMirror mirror;

@@ -32,6 +32,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     std::optional<Reach<Real>> reach(const LawBodies<Real>& bodies, double now, double to) override;
     double advance(const LawBodies<Real>& bodies, const Partition<Real>& partition, double now,
                    Step<Real>& step) override;
+    bool placed() const override { return placed_; }
     std::span<const ContactRecord> contacts() override { return records_; }
     std::size_t bytes() const override;
 
@@ -64,13 +65,15 @@ class ContinuousLaw final : public ContactLaw<Real> {
     bool runShared(const LawBodies<Real>& bodies, const Search& search, const EventWindow& window,
                    double now, Step<Real>& step);
     Motion motionOf(const LawBodies<Real>& bodies) const;
-    bool place(const LawBodies<Real>& bodies, double t) const;
+    void place(const LawBodies<Real>& bodies, double t);
+    bool someoneLooks(const Step<Real>& step) const;
 
     const ThreadTeam& team_;
     double gravityX_, gravityY_;  // px/s^2
     double restitution_;
 
     std::optional<std::uint64_t> revision_;  // of the bodies that all below is about
+    bool placed_ = true;                     // the columns say where bodies are now
     bool uniformMass_ = true;
 
     // As the bodies were when the partition was asked for:
