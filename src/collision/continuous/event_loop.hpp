@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "collision/continuous/event_loop_state.hpp"
 #include "collision/continuous/event_search.hpp"
@@ -63,8 +62,8 @@ class EventLoop {
     template <class Admit, class Collided, class OthersOf>
     bool run(Admit&& admit, Collided&& collided, OthersOf&& othersOf) {
         std::uint64_t carriedOut = 0;
-        const auto begun = [&](std::span<const PairEvent> events) { search_.prefetch(events); };
-        begun(state_.queue.present());
+        const auto begun = [&] { search_.prefetch(state_.queue); };
+        begun();
         while (state_.queue.more(begun)) {
             const PairEvent event = state_.queue.pop();
             if (!search_.isCurrent(event)) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -49,9 +50,9 @@ class EventQueue {
         present_ = 0;
         later_.drain(0, [&](const PairEvent& event) {
             const std::size_t span = spanOf(event.time);
-            span == 0 ? heap_.push_back(event) : later_.push(span, event);
+            span == 0 ? heap_.push_back(ranked(event)) : later_.push(span, event);
         });
-        std::make_heap(heap_.begin(), heap_.end(), order_);
+        std::make_heap(heap_.begin(), heap_.end(), isAfter());
     }
 
     void push(const PairEvent& event) {
@@ -60,37 +61,40 @@ class EventQueue {
             later_.push(span, event);
             return;
         }
-        heap_.push_back(event);
-        std::push_heap(heap_.begin(), heap_.end(), order_);
+        heap_.push_back(ranked(event));
+        std::push_heap(heap_.begin(), heap_.end(), isAfter());
     }
 
-    /// Whether anything more happens in the present step. Calls `begun(events)` where a span with
-    /// events begins.
+    /// Whether anything more happens in the present step. Calls `begun()` where a span with events
+    /// begins.
     template <class Begun>
     bool more(Begun&& begun) {
         while (heap_.empty() && present_ < lastSpan()) {
             ++present_;
             if (later_.empty(present_)) continue;
-            later_.drain(present_, [&](const PairEvent& event) { heap_.push_back(event); });
-            std::make_heap(heap_.begin(), heap_.end(), order_);
-            begun(std::span<const PairEvent>(heap_));
+            later_.drain(present_, [&](const PairEvent& event) { heap_.push_back(ranked(event)); });
+            std::make_heap(heap_.begin(), heap_.end(), isAfter());
+            begun();
         }
         return !heap_.empty() && heap_.front().time <= end_;
     }
     bool empty() {
-        return !more([](std::span<const PairEvent>) {});
+        return !more([] {});
     }
 
     /// The first event; there must be more().
     PairEvent pop() {
-        std::pop_heap(heap_.begin(), heap_.end(), order_);
+        std::pop_heap(heap_.begin(), heap_.end(), isAfter());
         const PairEvent event = heap_.back();
         heap_.pop_back();
         return event;
     }
 
-    /// The events of the present span, in no order.
-    std::span<const PairEvent> present() const { return heap_; }
+    /// Calls `function(event)` for the events of the present span, in no order.
+    template <class Function>
+    void forEachPresent(Function&& function) const {
+        std::for_each(heap_.begin(), heap_.end(), function);
+    }
 
     /// Calls `function(event)` for the events known for the present step, in no order.
     template <class Function>
@@ -151,11 +155,28 @@ class EventQueue {
     /// Whether p comes after q.
     bool isLater(const PairEvent& p, const PairEvent& q) const { return order_(p, q); }
 
-    std::size_t bytes() const { return heap_.capacity() * sizeof(PairEvent) + later_.bytes(); }
+    std::size_t bytes() const { return heap_.capacity() * sizeof(Ranked) + later_.bytes(); }
 
   private:
     static constexpr std::size_t eventsOfSpan = 32;
     static constexpr std::size_t mostSpans = 1 << 20;
+
+    /// An event with its place among those of its time, which otherwise each comparison of two
+    /// would have to look up: where bodies set out from a lattice, hundreds meet at the same
+    /// instant.
+    struct Ranked : PairEvent {
+        std::uint32_t priority;
+    };
+    Ranked ranked(const PairEvent& event) const { return {event, order_.priority(event)}; }
+    struct IsAfter {
+        const EventOrder& order;
+        bool operator()(const Ranked& p, const Ranked& q) const {
+            if (p.time != q.time) return p.time > q.time;
+            if (p.priority != q.priority) return p.priority > q.priority;
+            return order.tieIsLater(p, q);
+        }
+    };
+    IsAfter isAfter() const { return {order_}; }
 
     /// Later times have no lower span, whatever is rounded. What is beyond the calendar has one of
     /// its own behind it.
@@ -178,7 +199,7 @@ class EventQueue {
             });
         }
         std::erase_if(heap_, gone);
-        std::make_heap(heap_.begin(), heap_.end(), order_);
+        std::make_heap(heap_.begin(), heap_.end(), isAfter());
     }
 
     EventOrder order_;
@@ -190,7 +211,7 @@ class EventQueue {
     double perSecond_ = 0;     // spans
     std::size_t count_ = 1;    // spans up to to_
     std::size_t present_ = 0;  // the span whose events lie in the heap
-    std::vector<PairEvent> heap_;
+    std::vector<Ranked> heap_;
     EventLists later_;         // of each span behind it
     bool collecting_ = false;  // all events lie in list 0, which is free otherwise
 };

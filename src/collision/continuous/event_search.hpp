@@ -45,15 +45,15 @@ class EventSearch {
         sketches_.redraw(motion_, row);
     }
 
-    /// Brings into the cache what events and the search after them will read, all at once: one
-    /// after the other they would wait for each.
-    void prefetch(std::span<const PairEvent> events) const {
+    /// Brings into the cache what the present events and the search after them will read, all at
+    /// once: one after the other they would wait for each.
+    void prefetch(const EventQueue& queue) const {
 #if defined(__GNUC__)
         const auto forBodies = [&](auto&& function) {
-            for (const PairEvent& event : events) {
+            queue.forEachPresent([&](const PairEvent& event) {
                 function(event.a);
                 if (!event.withStatic()) function(event.b.row());
-            }
+            });
         };
         forBodies([&](std::uint32_t row) {
             const auto* const anchor = motion_.bodies.moving.anchors + row;
