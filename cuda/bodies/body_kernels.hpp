@@ -36,4 +36,9 @@ template <class Real>
 void launchBeginStep(const Launch& launch, const Bodies<Real>& bodies, std::uint32_t movingCount,
                      const StepParameters<Real>& step, StepCounts* counts);
 
+/// Moves the first `count` bodies of the result to where the host has put them in it.
+template <class Real>
+void launchTakePlaces(const Launch& launch, const Bodies<Real>& bodies,
+                      const HostResult<Real>& result, std::uint32_t count);
+
 }  // namespace quadrille::cuda

@@ -119,6 +119,33 @@ StepCounts CudaImpulse<Real>::tryStep(const Partition<Real>& partition, Step<Rea
     return bodies_.finish(step.clock);
 }
 
+/// Keeps the bodies that came back out of static boxes. The host does that for the device: it has
+/// them at the end of the step without their contacts, as on every resolver, and few must be moved.
+template <class Real>
+void CudaImpulse<Real>::keepOut(const LawBodies<Real>& bodies, std::uint32_t touched, Real dt) {
+    barrier_.update(bodies);
+    if (!barrier_.any()) return;
+    const Bodies<Real> host = bodies.plain();
+    const HostResult<Real> result = bodies_.hostResult();
+    const bool moved =
+        device_.team().any(touched, &Thresholds::scattered, [&](std::size_t from, std::size_t to) {
+            bool any = false;
+            for (std::size_t i = from; i < to; ++i) {
+                const std::uint32_t row = result.rows[i];
+                Box<Real> box = movingBox(host, row);
+                box.x = result.x[i];
+                box.y = result.y[i];
+                const Place<Real> place =
+                    barrier_.keepOut(box, placeBefore<Real>(host.moving, row, dt));
+                any |= place.x != box.x || place.y != box.y;
+                result.x[i] = place.x;
+                result.y[i] = place.y;
+            }
+            return any;
+        });
+    if (moved) launchTakePlaces(device_.launch(), bodies_.bodies(), result, touched);
+}
+
 template <class Real>
 void CudaImpulse<Real>::resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                                 Step<Real>& step) {
@@ -136,6 +163,7 @@ void CudaImpulse<Real>::resolve(const LawBodies<Real>& bodies, const Partition<R
         counts = tryStep(partition, step);
     }
     listsEmpty_ = true;
+    keepOut(bodies, counts.touched, step.parameters.dt);
     const auto found = static_cast<std::uint32_t>(counts.contacts);
     expected_ = std::max<std::uint32_t>(found + found / 4, 64);
     step.counts.contacts += counts.contacts;

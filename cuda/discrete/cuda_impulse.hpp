@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision/static_barrier.hpp"
 #include "cuda/discrete/cuda_law.hpp"
 #include "cuda/discrete/impulse_kernels.hpp"
 
@@ -30,8 +31,10 @@ class CudaImpulse final : public CudaLaw<Real> {
     void reserveContacts(std::uint64_t count);
     void collect(const LawBodies<Real>& bodies, const Partition<Real>& partition);
     void forgetSeenPairs(const Partition<Real>& partition);
+    void keepOut(const LawBodies<Real>& bodies, std::uint32_t touched, Real dt);
     StepCounts tryStep(const Partition<Real>& partition, Step<Real>& step);
 
+    StaticBarrier<Real> barrier_;
     DeviceArray<CandidatePair> candidates_{device_.budget()};
     std::uint32_t candidateCount_ = 0;
     std::uint64_t candidatesOf_ = 0;  // generation of the partition that they come from

@@ -1,8 +1,8 @@
 // The state of shipped scenes after some steps is what it was when these numbers were written down.
 //
 // They are in tests/data/pinned_hashes.csv, which scripts/test-architectures reads, too. They come
-// from the program of version 0.1.0 before its engines had an interface (commit 02e1fc1), built for
-// Release, and not from the code that is tested:
+// from programs built for Release before the code that is tested was written (02e1fc1; of `impulse`
+// where bodies push each other or meet static ones, 2438df7), and not from that code:
 //
 //   collisionStress --headless --scene S --law L --precision P --resolver sequential
 //                   --partitioner semi-static-quadtree --frames N --json -      (state_hash)

@@ -15,6 +15,7 @@
 #include "collision/rules/event_rules.hpp"
 #include "collision/rules/fine_grid.hpp"
 #include "collision/rules/impulse_contact.hpp"
+#include "collision/rules/keep_out.hpp"
 #include "collision/rules/leaf_rule.hpp"
 #include "collision/rules/mix64.hpp"
 #include "collision/rules/next_event.hpp"

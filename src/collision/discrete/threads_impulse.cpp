@@ -20,19 +20,23 @@ void ThreadsImpulse<Real>::resolve(const LawBodies<Real>& view, const Partition<
                                    Step<Real>& step) {
     const Bodies<Real> bodies = view.plain();
     const Real dt = step.parameters.dt;
-    if (team_.size() > 1) startMarks(view.moving.size());
+    barrier_.update(view);
+    startMarks(view.moving.size());
     for (auto& list : found_) list.contacts.clear();
-    for (Worker& worker : workers_) worker.counts = {};
+    for (Worker& worker : workers_) {
+        worker.counts = {};
+        worker.touched.clear();
+    }
     step.counts.pairsTested += narrowPhase_.find(
         view.read(), partition,
         [&](unsigned worker, MovingPair p) {
             found_[worker].contacts.push_back(movingContact(bodies, p.a, p.b, dt));
-            claim(p.a, worker);
-            claim(p.b, worker);
+            touch(bodies, p.a, dt, worker);
+            touch(bodies, p.b, dt, worker);
         },
         [&](unsigned worker, StaticPair p) {
             found_[worker].contacts.push_back(staticContact(bodies, p.a, p.fixed, dt));
-            claim(p.a, worker);
+            touch(bodies, p.a, dt, worker);
         });
 
     const bool shared = pending() > found_.front().contacts.size();
@@ -52,6 +56,7 @@ void ThreadsImpulse<Real>::resolve(const LawBodies<Real>& view, const Partition<
         resolveRest(bodies, step, partition.complete);
     }
     makeRecords(bodies, step.from);
+    keepOut(bodies);
 }
 
 template <class Real>
@@ -83,14 +88,40 @@ void ThreadsImpulse<Real>::startMarks(std::size_t movingCount) {
     }
 }
 
-/// Says that the worker has a contact with the body; a second one makes that contacts wait.
+/// Says that the worker has a contact with the body; a second one makes that contacts wait. Returns
+/// whether it is the first contact of the body in this step.
 template <class Real>
-void ThreadsImpulse<Real>::claim(std::uint32_t body, unsigned worker) {
-    if (team_.size() == 1) return;
+bool ThreadsImpulse<Real>::claim(std::uint32_t body, unsigned worker) {
     Mark mark = marks_[body].load(std::memory_order_relaxed);
     while (mark != markOf(worker) && mark != held_) {
         const Mark next = mark < held_ ? markOf(worker) : held_;
-        if (marks_[body].compare_exchange_weak(mark, next, std::memory_order_relaxed)) return;
+        const bool first = mark < held_;
+        if (marks_[body].compare_exchange_weak(mark, next, std::memory_order_relaxed)) return first;
+    }
+    return false;
+}
+
+/// Claims the body, and notes where it stood when the step began.
+template <class Real>
+void ThreadsImpulse<Real>::touch(const Bodies<Real>& bodies, std::uint32_t row, Real dt,
+                                 unsigned worker) {
+    if (!claim(row, worker) || !barrier_.any()) return;
+    workers_[worker].touched.push_back({row, placeBefore<Real>(bodies.moving, row, dt)});
+}
+
+template <class Real>
+void ThreadsImpulse<Real>::keepOut(const Bodies<Real>& bodies) {
+    std::size_t touched = 0;
+    for (const Worker& worker : workers_) touched += worker.touched.size();
+    const auto keepOutOwn = [&](unsigned worker) {
+        for (const Touched& t : workers_[worker].touched) {
+            barrier_.keepOut(bodies, t.row, t.start);
+        }
+    };
+    if (team_.workersFor(touched, &Thresholds::scattered) > 1) {
+        team_.run(team_.size(), keepOutOwn);
+    } else {
+        for (unsigned w = 0; w < workers_.size(); ++w) keepOutOwn(w);
     }
 }
 
@@ -161,15 +192,18 @@ void ThreadsImpulse<Real>::makeRecords(const Bodies<Real>& bodies, double stepSt
 
 template <class Real>
 std::size_t ThreadsImpulse<Real>::bytes() const {
-    std::size_t sum = narrowPhase_.bytes() + graph_.bytes() + sortRest_.bytes() + log_.bytes() +
-                      records_.capacity() * sizeof(ContactRecord) + markCount_ * sizeof(Mark) +
-                      rest_.capacity() * sizeof(PendingContact<Real>) +
+    std::size_t sum = barrier_.bytes() + narrowPhase_.bytes() + graph_.bytes() + sortRest_.bytes() +
+                      log_.bytes() + records_.capacity() * sizeof(ContactRecord) +
+                      markCount_ * sizeof(Mark) + rest_.capacity() * sizeof(PendingContact<Real>) +
                       found_.capacity() * sizeof(ContactList<Real>) +
                       workers_.capacity() * sizeof(Worker);
     for (const auto& list : found_) {
         sum += list.contacts.capacity() * sizeof(PendingContact<Real>);
     }
-    for (const Worker& worker : workers_) sum += worker.sort.bytes() + worker.log.bytes();
+    for (const Worker& worker : workers_) {
+        sum +=
+            worker.sort.bytes() + worker.log.bytes() + worker.touched.capacity() * sizeof(Touched);
+    }
     return sum;
 }
 

@@ -12,6 +12,7 @@
 #include "collision/discrete/discrete_law.hpp"
 #include "collision/pairs/threads_narrow_phase.hpp"
 #include "collision/rules/impulse_contact.hpp"
+#include "collision/static_barrier.hpp"
 
 namespace quadrille {
 
@@ -38,9 +39,14 @@ class ThreadsImpulse final : public DiscreteLaw<Real> {
     using Contacts = std::vector<PendingContact<Real>>;
     using Mark = std::uint32_t;
 
+    struct Touched {
+        std::uint32_t row;
+        Place<Real> start;  ///< where it stood when the step began
+    };
     struct alignas(64) Worker {
         CanonicalSort<Real> sort;
         ContactLog<Real> log;
+        std::vector<Touched> touched;  // that this worker was the first to find
         ResolveCounts counts;
     };
 
@@ -49,7 +55,9 @@ class ThreadsImpulse final : public DiscreteLaw<Real> {
 
     std::size_t pending() const;
     void startMarks(std::size_t movingCount);
-    void claim(std::uint32_t body, unsigned worker);
+    bool claim(std::uint32_t body, unsigned worker);
+    void touch(const Bodies<Real>& bodies, std::uint32_t row, Real dt, unsigned worker);
+    void keepOut(const Bodies<Real>& bodies);
     Mark markOf(unsigned worker) const { return held_ + 1 + worker; }
     bool free(const PendingContact<Real>& c, unsigned worker) const;
     void hold(const PendingContact<Real>& c);
@@ -58,6 +66,7 @@ class ThreadsImpulse final : public DiscreteLaw<Real> {
     void makeRecords(const Bodies<Real>& bodies, double stepStart);
 
     const ThreadTeam& team_;
+    StaticBarrier<Real> barrier_;
     ThreadsNarrowPhase<Real> narrowPhase_;
     std::vector<ContactList<Real>> found_;  // by each worker; in the end, what it put off
     std::vector<Worker> workers_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <quadrille/detail/host_device.hpp>
 
@@ -22,6 +23,17 @@ QUADRILLE_HD inline bool overlaps(Real dx, Real dy, Real reachX, Real reachY) {
     return (magnitude(dx) < reachX) & (magnitude(dy) < reachY);
 }
 
+template <class Real>
+inline constexpr Real eightUlps = 8 * std::numeric_limits<Real>::epsilon();
+
+/// By how much rounding may put a box deeper into another than it is, px: `position` is a
+/// coordinate of one of them, `reach` the sum of their half extents along it. Boxes that are level
+/// where they were made still touch within it, whatever their sizes and places.
+template <class Real>
+QUADRILLE_HD inline Real roundingOf(Real position, Real reach) {
+    return eightUlps<Real> * (magnitude(position) + reach);
+}
+
 inline constexpr std::uint8_t axisX = 1;
 inline constexpr std::uint8_t axisY = 2;
 
@@ -40,14 +52,14 @@ struct Impact {
 ///
 /// Both gaps must be closed for a contact, so the axis whose gap closed last is the contact's axis
 /// (separating axis theorem for moving boxes). Pairs that overlapped before take the axis of least
-/// penetration, and x where both are equal.
+/// penetration, and x where both are equal. What was no deeper than the slack of an axis touched.
 template <class Real>
 QUADRILLE_HD inline Impact<Real> impactOf(Real dx, Real dy, Real ux, Real uy, Real reachX,
-                                          Real reachY, Real dt) {
+                                          Real reachY, Real dt, Real slackX = 0, Real slackY = 0) {
     const Real startX = dx - ux * dt;
     const Real startY = dy - uy * dt;
-    const bool openX = magnitude(startX) >= reachX;
-    const bool openY = magnitude(startY) >= reachY;
+    const bool openX = magnitude(startX) >= reachX - slackX;
+    const bool openY = magnitude(startY) >= reachY - slackY;
     if (!openX && !openY) {
         const bool alongX = reachX - magnitude(dx) <= reachY - magnitude(dy);
         // Equal centres have no direction: the body that was created first goes to the low side.
@@ -86,8 +98,8 @@ struct AxisState {
 /// Exchanges the impulse of a collision along one axis. Equal masses that collide elastically swap
 /// their velocities, so that the set of speeds keeps its bits.
 template <class Real>
-QUADRILLE_HD inline void exchangeImpulse(Real& va, Real& vb, Real massA, Real massB,
-                                         Real restitution) {
+QUADRILLE_HD QUADRILLE_INLINE void exchangeImpulse(Real& va, Real& vb, Real massA, Real massB,
+                                                   Real restitution) {
     if (massA == massB && restitution == 1) {
         const Real kept = va;
         va = vb;
@@ -105,9 +117,10 @@ QUADRILLE_HD inline void exchangeImpulse(Real& va, Real& vb, Real massA, Real ma
 /// collision of two ends where the exact one does. Overlap from before the step is pushed out in
 /// inverse proportion to mass.
 template <class Real>
-QUADRILLE_HD inline AxisOutcome<Real> collide(AxisState<Real>& a, AxisState<Real>& b, Real massA,
-                                              Real massB, Real restitution, Real reach, Real sense,
-                                              Real since, bool overlapBefore) {
+QUADRILLE_HD QUADRILLE_INLINE AxisOutcome<Real> collide(AxisState<Real>& a, AxisState<Real>& b,
+                                                        Real massA, Real massB, Real restitution,
+                                                        Real reach, Real sense, Real since,
+                                                        bool overlapBefore) {
     const Real approach = -((b.velocity - a.velocity) * sense);
     const bool approaching = approach > 0;
     Real impulse = 0;
@@ -142,10 +155,10 @@ QUADRILLE_HD inline Real gainedSinceImpact(Real gravity, Real since, Real dt) {
 /// reflected: that of the step less what gravity has `gained` since. A body that would still go in
 /// afterwards rests on the surface.
 template <class Real>
-QUADRILLE_HD inline AxisOutcome<Real> collideStatic(AxisState<Real>& a, Real mass,
-                                                    Real fixedPosition, Real restitution,
-                                                    Real reach, Real sense, Real since,
-                                                    bool overlapBefore, Real gained) {
+QUADRILLE_HD QUADRILLE_INLINE AxisOutcome<Real> collideStatic(AxisState<Real>& a, Real mass,
+                                                              Real fixedPosition, Real restitution,
+                                                              Real reach, Real sense, Real since,
+                                                              bool overlapBefore, Real gained) {
     const Real approach = a.velocity * sense;
     const bool approaching = approach > 0;
     Real impulse = 0;
