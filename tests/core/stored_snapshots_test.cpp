@@ -26,7 +26,7 @@
 namespace quadrille {
 namespace {
 
-constexpr int newestVersion = 3;
+constexpr int newestVersion = 4;
 constexpr int versions[] = {newestVersion};
 
 class StoredSnapshots : public testing::TestWithParam<std::tuple<Law, Precision>> {
