@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include <quadrille/names.hpp>
 
@@ -20,6 +21,13 @@ void row(std::ostream& out, bool modelled, const std::string& what, const std::s
     std::snprintf(line.data(), line.size(), "  %-3s  %-22s %s\n", modelled ? "yes" : "no",
                   what.c_str(), how.c_str());
     out << line.data();
+}
+
+std::string_view aboutOf(Law law) {
+    for (const auto& named : laws()) {
+        if (named.kind == law) return named.about;
+    }
+    return "";
 }
 
 }  // namespace
@@ -41,7 +49,9 @@ void explain(std::ostream& out, const Run& run, bool window) {
     out << "scene " << run.scene << ": " << world.movingCount() << " moving and "
         << world.staticCount() << " static bodies, law " << name(config.law) << ", "
         << name(config.precision) << ", " << name(config.partitioner) << ", resolver "
-        << name(config.resolver) << " (the law runs on " << elsewhere << ")\n";
+        << name(config.resolver) << '\n';
+    out << "law " << name(config.law) << ": " << aboutOf(config.law) << "; it runs on " << elsewhere
+        << '\n';
     row(out, f.movingBodies, "position and velocity", column(4));
     row(out, f.sizesDiffer, "sizes of their own", f.sizesDiffer ? column(2) : "one size for all");
     row(out, f.massesDiffer, "masses of their own",

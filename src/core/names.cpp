@@ -8,8 +8,10 @@ namespace {
 
 constexpr std::array<Named<Law>, 3> lawTable = {{
     {Law::Baseline, "baseline", "the report's law, to measure against"},
-    {Law::Impulse, "impulse", "discrete: pairs that overlap at the end of a step"},
-    {Law::Continuous, "continuous", "exact: all events of a step in the order of time"},
+    {Law::Impulse, "impulse",
+     "discrete: pairs that overlap at the end of a step; for speed, with errors"},
+    {Law::Continuous, "continuous",
+     "exact, the default: all events of a step in the order of time"},
 }};
 
 constexpr std::array<Named<ResolverKind>, 4> resolverTable = {{
