@@ -41,10 +41,10 @@ TEST_F(WindowSwitch, ALawThatIsChangedLiveGoesOnFromTheState) {
     startPausedRun({"--json", file("run.json"), "--dump-state", file("state.csv")});
     for (int i = 0; i < 5; ++i) screen_->press("period");
     ASSERT_TRUE(titleHas("step 5,"));
-    screen_->press("l");  // impulse, continuous
+    screen_->press("l");  // from the last of the laws to the first
     ASSERT_EQ(close().exitCode, 0);
     const Json summary = Json::parse(contentOf(path("run.json")));
-    EXPECT_EQ(summary["law"], "continuous");
+    EXPECT_EQ(summary["law"], "baseline");
     // Nothing has moved by the change.
     EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "5"})["state_hash"]);
 }
@@ -77,8 +77,8 @@ TEST_F(WindowSwitch, ALawThatTheResolverDoesNotKnowRunsOnTheSequentialOne) {
 /// What cannot be run is refused, and the run goes on as it was.
 TEST_F(WindowSwitch, ALawThatCannotRunIsRefused) {
     // The law 'continuous' needs a partition that misses no pair.
-    start({"--scene", "imbalanced", "--entities", "50", "--rebuild", "every:10", "--paused",
-           "--json", file("run.json")});
+    start({"--scene", "imbalanced", "--entities", "50", "--law", "impulse", "--rebuild", "every:10",
+           "--paused", "--json", file("run.json")});
     ASSERT_TRUE(titleHas("step 0, paused")) << program_->err();
     screen_->focus();
     screen_->press("l");

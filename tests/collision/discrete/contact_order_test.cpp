@@ -158,7 +158,10 @@ TEST_P(ContactOrder, TiesAreBrokenByTheHashAndThenTheRows) {
         SCOPED_TRACE(name(kind));
         Simulation sim(randomScene(kind, 42, 150, 1000),
                        {.law = Law::Impulse, .precision = GetParam()});
-        const auto seen = contactsOf(sim, 1);
+        auto seen = contactsOf(sim, 1);
+        // What a body touches of static ones at one time has an order of its own (staticPriority).
+        std::erase_if(seen, [](const Seen& s) { return s.contact.numberB < 0; });
+        ASSERT_GT(seen.size(), 10u);
         for (std::size_t i = 1; i < seen.size(); ++i) {
             ASSERT_LT(seenKeys(seen[i - 1].contact), seenKeys(seen[i].contact)) << i;
         }

@@ -81,7 +81,8 @@ void expectSlides(const Slide& slide, const Side& side, Tiling tiling, Precision
     constexpr double speed = 40;
     const Entity box =
         makeBox(world, vector(side, -40, level), {.velocity = vector(side, speed, 0)}, {10, 10});
-    Simulation sim(std::move(world), {.precision = precision,
+    Simulation sim(std::move(world), {.law = Law::Impulse,
+                                      .precision = precision,
                                       .step = {.dt = slide.dt,
                                                .gravity = vector(side, 0, side.towards * 200),
                                                .restitution = slide.restitution}});
@@ -123,8 +124,9 @@ TEST_P(StaticBodies, ABoxSunkIntoLevelTilesIsLiftedOutWithoutAPush) {
         makeBox(world, {-50, -5}, fixed(), {100, 10});
         makeBox(world, {50, -5}, fixed(), {100, 10});
         const Entity box = makeBox(world, {along, 4.9}, moving(20), {10, 10});
-        Simulation sim(std::move(world),
-                       {.precision = GetParam(), .step = {.gravity = {0, -200}, .restitution = 0}});
+        Simulation sim(std::move(world), {.law = Law::Impulse,
+                                          .precision = GetParam(),
+                                          .step = {.gravity = {0, -200}, .restitution = 0}});
         sim.run(30);
         EXPECT_EQ(velocityOf(sim, box).x(), 20);
         EXPECT_NEAR(positionOf(sim, box).y(), 5, 2000 * epsilon());
@@ -214,7 +216,8 @@ TEST_P(StaticBodies, NothingEntersThemAndNothingEscapes) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const double g = seed % 3 == 0 ? 0 : 300;
         Simulation sim(crowdedRoom(seed),
-                       {.precision = GetParam(),
+                       {.law = Law::Impulse,
+                        .precision = GetParam(),
                         .step = {.gravity = {seed % 4 == 0 ? g : 0, seed % 4 == 0 ? 0 : -g},
                                  .restitution = seed % 5 == 0 ? 1 : 0.2 * double(seed % 5)}});
         ASSERT_LE(deepestInStatic(sim.world()), 0);
@@ -233,7 +236,8 @@ TEST_P(StaticBodies, AWallHoldsAgainstAHeavyPush) {
     makeBox(world, {20, 0}, fixed(), {10, 50});
     const Entity light = makeBox(world, {12.5, 0}, moving(0, 0, 1), {4, 4});
     const Entity heavy = makeBox(world, {8.2, 0}, moving(300, 0, 1000), {4, 4});
-    Simulation sim(std::move(world), {.precision = GetParam(), .step = {.restitution = 0.5}});
+    Simulation sim(std::move(world),
+                   {.law = Law::Impulse, .precision = GetParam(), .step = {.restitution = 0.5}});
     for (int i = 0; i < 30; ++i) {
         sim.step();
         ASSERT_LE(positionOf(sim, light).x(), 13 + 1000 * epsilon()) << "step " << i;
@@ -250,8 +254,9 @@ TEST_P(StaticBodies, AHeapStaysInItsContainer) {
         makeBox(world, {-43 + 9.5 * (i % 10), -440 + 12.0 * (i / 10)},
                 moving(random.uniform(-20, 20), random.uniform(-20, 20)), {8, 8});
     }
-    Simulation sim(std::move(world),
-                   {.precision = GetParam(), .step = {.gravity = {0, -200}, .restitution = 0.2}});
+    Simulation sim(std::move(world), {.law = Law::Impulse,
+                                      .precision = GetParam(),
+                                      .step = {.gravity = {0, -200}, .restitution = 0.2}});
     for (int i = 0; i < 600; ++i) {
         sim.step();
         ASSERT_LT(deepestInStatic(sim.world()), 8000 * epsilon()) << "step " << i;
@@ -268,6 +273,7 @@ TEST_P(StaticBodies, ABoxWedgedBetweenTwoHasOneOutcome) {
         makeBox(world, {6.5, 0}, fixed(), {10, 40});
         const Entity box = makeBox(world, {0.1, 0}, moving(7, 3), {4, 4});
         Simulation sim(std::move(world), {.partitioner = partitioner,
+                                          .law = Law::Impulse,
                                           .precision = GetParam(),
                                           .resolver = ResolverKind::Sequential});
         sim.run(120);
