@@ -333,6 +333,9 @@ void interpret(Options& options, const RawOptions& raw) {
     if (options.error && options.frames == 0) {
         throw UsageError("--error: there is nothing to compare after --frames 0");
     }
+    if (options.headless && options.window.offscreen) {
+        throw UsageError("--offscreen draws what --headless leaves out: give one of the two");
+    }
     if (options.headless && !options.window.screenshot.empty()) {
         throw UsageError("--screenshot: there is nothing to see with --headless");
     }

@@ -25,7 +25,7 @@ int takeSide(std::string_view& text) {
 
 bool parseSize(std::string_view text, int& width, int& height) {
     width = takeSide(text);
-    if (width < 0 || text.empty() || text.front() != 'x') return false;
+    if (width < 0 || text.empty() || (text.front() != ',' && text.front() != 'x')) return false;
     text.remove_prefix(1);
     height = takeSide(text);
     return height >= 0 && text.empty();
@@ -48,25 +48,30 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
     const auto refuse = [](const char* option, const std::string& text, const std::string& reason) {
         throw CLI::ValidationError(option, "'" + text + "' " + reason);
     };
+    app.add_flag("--offscreen", options.offscreen,
+                 "Draw the window's pictures without a screen, for --screenshot")
+        ->group(group);
     app.add_option_function<std::string>(
-           "--window-size",
+           "--size,--window-size",
            [&options, refuse](const std::string& text) {
                if (parseSize(text, options.width, options.height)) return;
-               refuse("--window-size", text, "is not WIDTHxHEIGHT with sides from 64 to 16384");
+               refuse("--size", text, "is not WIDTH,HEIGHT with sides from 64 to 16384");
            },
            "Size of the window (1280x720)")
-        ->type_name("WxH")
+        ->type_name("W,H")
         ->group(group);
+    app.add_flag("!--hide-panels", options.panels, "Start without the panels")->group(group);
     app.add_flag("--paused", options.paused, "Start paused")->group(group);
     app.add_option_function<std::string>(
            "--speed",
            [&options, refuse](const std::string& text) {
                options.speed = parseSpeed(text);
-               if (std::isnan(options.speed)) {
+               if (std::isnan(*options.speed)) {
                    refuse("--speed", text, "is neither a number from 1/64 to 64 nor max");
                }
            },
-           "Seconds of the simulation per second, or max: a step in every picture (1)")
+           "Seconds of the simulation per second, or max: a step in every picture (1; max with "
+           "--offscreen)")
         ->type_name("FACTOR")
         ->group(group);
     app.add_option_function<std::vector<std::string>>(

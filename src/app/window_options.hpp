@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -21,9 +22,12 @@ struct Overlays {
 
 /// The part of the command line that concerns the window.
 struct WindowOptions {
+    bool offscreen = false;          ///< the same pictures, without a screen
     int width = 1280, height = 720;  ///< points
+    bool panels = true;
     bool paused = false;
-    double speed = 1;  ///< seconds of the simulation per second; 0 for a step in every picture
+    /// Seconds of the simulation per second; 0 for a step in every picture.
+    std::optional<double> speed;
     bool vsync = true;
     Overlays overlays;
     ColorBy colorBy = ColorBy::Entity;

@@ -13,14 +13,15 @@ TEST(Help, ListsEveryOption) {
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.err, "");
     for (const char* option :
-         {"--scene",     "--entities",     "--seed",         "--partitioner", "--cell-size",
-          "--max-depth", "--max-per-cell", "--rebuild",      "--resolver",    "--threads",
-          "--law",       "--precision",    "--dt",           "--restitution", "--headless",
-          "--frames",    "--duration",     "--report-every", "--profile",     "--error",
-          "--explain",   "--json",         "--csv",          "--dump-state",  "--dump-events",
-          "--save",      "--load",         "--screenshot",   "--no-fallback", "--list",
-          "--version",   "--help",         "--window-size",  "--paused",      "--speed",
-          "--show",      "--color-by",     "--no-vsync",     "--force-memory"}) {
+         {"--scene",       "--entities",     "--seed",         "--partitioner", "--cell-size",
+          "--max-depth",   "--max-per-cell", "--rebuild",      "--resolver",    "--threads",
+          "--law",         "--precision",    "--dt",           "--restitution", "--headless",
+          "--frames",      "--duration",     "--report-every", "--profile",     "--error",
+          "--explain",     "--json",         "--csv",          "--dump-state",  "--dump-events",
+          "--save",        "--load",         "--screenshot",   "--no-fallback", "--list",
+          "--version",     "--help",         "--window-size",  "--size",        "--offscreen",
+          "--hide-panels", "--paused",       "--speed",        "--show",        "--color-by",
+          "--no-vsync",    "--force-memory"}) {
         EXPECT_TRUE(contains(result.out, option)) << option;
     }
 }
@@ -62,16 +63,30 @@ TEST(List, NamesScenesAndChoices) {
     }
 }
 
-/// Be it that the build has no window or that there is no display to open one on.
-TEST(Window, IsMissedWithAHint) {
+/// Be it that the build has no window or that there is no display to open one on: no driver is
+/// chosen here, so that one which shows nothing may offer itself.
+class Window : public testing::TestWithParam<Arguments> {};
+
+TEST_P(Window, IsMissedWithAHint) {
     Process program("/usr/bin/env",
-                    {"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER=x11",
-                     QUADRILLE_PROGRAM, "--scene", "cradle"});
+                    Arguments{"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "-u", "SDL_VIDEODRIVER"} +
+                        GetParam() + Arguments{QUADRILLE_PROGRAM, "--scene", "cradle"});
     const ProcessResult result = program.finish();
+    EXPECT_FALSE(result.timedOut);
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(contains(result.err, "--headless")) << result.err;
 }
+
+INSTANTIATE_TEST_SUITE_P(Where, Window,
+                         testing::Values(Arguments{}, Arguments{"DISPLAY=:4711"},
+                                         Arguments{"DISPLAY=nowhere"}, Arguments{"DISPLAY="},
+                                         Arguments{"SDL_VIDEODRIVER=offscreen"},
+                                         Arguments{"SDL_VIDEODRIVER=dummy"},
+                                         Arguments{"SDL_VIDEODRIVER=x11"}),
+                         [](const auto& test) {
+                             return test.param.empty() ? "nothing" : identifier(test.param.front());
+                         });
 
 }  // namespace
 }  // namespace quadrille

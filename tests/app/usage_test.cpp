@@ -81,16 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"--duration", "-1"}, Arguments{"--duration", "nan"},
         Arguments{"--report-every", "0"}, Arguments{"--report-every", "nan"},
         Arguments{"--json", ""}, Arguments{"--save", ""}, Arguments{"--save", "-"},
-        Arguments{"--screenshot", ""}, Arguments{"--screenshot", "-"},
-        Arguments{"--window-size", "640"}, Arguments{"--window-size", "640x"},
-        Arguments{"--window-size", "0x480"}, Arguments{"--window-size", "640x480x2"},
-        Arguments{"--window-size", "640,480"}, Arguments{"--window-size", "9e3x480"},
-        Arguments{"--speed", "0"}, Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"},
-        Arguments{"--speed", "fast"}, Arguments{"--show", "cells"},
-        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"},
-        Arguments{"--threads", "0"}, Arguments{"--threads", "-1"}, Arguments{"--threads", "1.5"},
-        Arguments{"--threads", "many"}, Arguments{"--threads", "1025"},
-        Arguments{"--threads", "99999999999999999999"}),
+        Arguments{"--screenshot", ""}, Arguments{"--screenshot", "-"}, Arguments{"--size", "640"},
+        Arguments{"--size", "640x"}, Arguments{"--size", "0x480"}, Arguments{"--size", "640x480x2"},
+        Arguments{"--size", "640;480"}, Arguments{"--size", "9e3x480"}, Arguments{"--speed", "0"},
+        Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"}, Arguments{"--speed", "fast"},
+        Arguments{"--show", "cells"}, Arguments{"--show", "gridlines,cells"},
+        Arguments{"--color-by", "mass"}, Arguments{"--threads", "0"}, Arguments{"--threads", "-1"},
+        Arguments{"--threads", "1.5"}, Arguments{"--threads", "many"},
+        Arguments{"--threads", "1025"}, Arguments{"--threads", "99999999999999999999"}),
     nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
@@ -153,6 +151,7 @@ TEST(Usage, CellsTooSmallForTheWorld) {
 
 TEST(Usage, NoScreenshotWithoutAWindow) {
     expectUsageError({"--screenshot", "shot.png"}, {"--screenshot", "--headless"});
+    expectUsageError({"--offscreen"}, {"--offscreen", "--headless"});
 }
 
 }  // namespace

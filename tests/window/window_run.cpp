@@ -14,8 +14,8 @@ void WindowTest::start(const Arguments& arguments) {
     const std::string folder = path(".").string();
     program_ = std::make_unique<Process>(
         "/usr/bin/env",
-        Arguments{"--chdir=" + folder, "-u", "WAYLAND_DISPLAY", "DISPLAY=" + screen_->name(),
-                  "SDL_VIDEODRIVER=x11", "LIBGL_ALWAYS_SOFTWARE=1", QUADRILLE_PROGRAM} +
+        Arguments{"--chdir=" + folder, "-u", "WAYLAND_DISPLAY", "-u", "SDL_VIDEODRIVER",
+                  "DISPLAY=" + screen_->name(), "LIBGL_ALWAYS_SOFTWARE=1", QUADRILLE_PROGRAM} +
             arguments);
 }
 

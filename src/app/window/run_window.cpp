@@ -85,12 +85,13 @@ class WindowRun {
 WindowRun::WindowRun(const Options& options)
     : options_(options),
       bench_(options),
-      window_(options.window.width, options.window.height),
+      window_(options.window.width, options.window.height, options.window.offscreen),
       gui_(window_),
       size_(window_.size()) {
     view_.overlays = options.window.overlays;
     view_.colorBy = options.window.colorBy;
     view_.vsync = options.window.vsync;
+    view_.panels = options.window.panels;
     vsync_ = view_.vsync;
     hasVsync_ = window_.setVsync(vsync_);
     bench_.watchContacts(view_.overlays.contacts);

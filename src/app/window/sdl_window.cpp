@@ -1,7 +1,10 @@
 #include "app/window/sdl_window.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <epoxy/gl.h>
+#include <string_view>
 
 #include <quadrille/error.hpp>
 
@@ -10,12 +13,28 @@ namespace quadrille::app {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, const std::string& reason) {
-    throw Error(what + ": " + reason + "; --headless runs without a window");
+    throw Error(what + ": " + reason +
+                "; --headless runs without pictures, --offscreen draws them without a screen");
+}
+
+/// The drivers of SDL that show nothing, the first of which draws.
+constexpr std::array<std::string_view, 3> screenless = {"offscreen", "dummy", "evdev"};
+
+/// SDL takes such a driver by itself where it finds no display.
+void requireScreen() {
+    const std::string driver = SDL_GetCurrentVideoDriver();
+    if (std::find(screenless.begin(), screenless.end(), driver) == screenless.end()) return;
+    SDL_Quit();
+    const char* const display = std::getenv("DISPLAY");
+    const std::string asked =
+        display != nullptr ? ", and DISPLAY is '" + std::string(display) + "'" : std::string();
+    fail("there is no display",
+         "only SDL's driver '" + driver + "' can run, which shows nothing" + asked);
 }
 
 }  // namespace
 
-SdlWindow::Library::Library() {
+SdlWindow::Library::Library(bool offscreen) {
     // Ctrl-C is the program's own affair.
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     // A busy or watched screen keeps its compositor and its screen saver.
@@ -25,10 +44,18 @@ SdlWindow::Library::Library() {
     SDL_SetHint(SDL_HINT_WINDOWS_DPI_SCALING, "1");
 #endif
     SDL_SetMainReady();
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("there is no display", SDL_GetError());
+    if (offscreen) {
+        SDL_SetHintWithPriority(SDL_HINT_VIDEODRIVER, screenless.front().data(), SDL_HINT_OVERRIDE);
+    }
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) {
+        fail(offscreen ? "pictures cannot be drawn without a screen" : "there is no display",
+             SDL_GetError());
+    }
+    if (!offscreen) requireScreen();
 }
 
-SdlWindow::SdlWindow(int width, int height) {
+SdlWindow::SdlWindow(int width, int height, bool offscreen)
+    : library_(offscreen), offscreen_(offscreen) {
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
@@ -57,8 +84,15 @@ SdlWindow::Size SdlWindow::size() const {
 }
 
 bool SdlWindow::setVsync(bool wanted) {
+    if (offscreen_) return false;
     SDL_GL_SetSwapInterval(wanted ? 1 : 0);
     return SDL_GL_GetSwapInterval() != 0;
+}
+
+void SdlWindow::present() {
+    if (!offscreen_) return SDL_GL_SwapWindow(window_.get());
+    // Nothing is swapped here, so the driver would keep the commands of every picture.
+    glFinish();
 }
 
 void SdlWindow::setTitle(const std::string& title) {

@@ -16,8 +16,9 @@ class SdlWindow {
         double pixelRatio() const { return double(pixelWidth) / double(width); }
     };
 
-    /// Throws Error, with a hint at --headless, where there is no display or no OpenGL 3.3.
-    SdlWindow(int width, int height);
+    /// `offscreen` draws the same pictures and shows them nowhere. Throws Error, with a hint at
+    /// --headless, where there is no OpenGL 3.3 or, unless offscreen, no display.
+    SdlWindow(int width, int height, bool offscreen);
 
     SDL_Window* handle() const { return window_.get(); }
     SDL_GLContext context() const { return context_.get(); }
@@ -28,11 +29,11 @@ class SdlWindow {
     /// Asks that pictures wait for the screen, or do not; says what the driver really does.
     bool setVsync(bool wanted);
     void setTitle(const std::string& title);
-    void present() { SDL_GL_SwapWindow(window_.get()); }
+    void present();
 
   private:
     struct Library {
-        Library();
+        explicit Library(bool offscreen);
         ~Library() { SDL_Quit(); }
     };
     struct DestroyWindow {
@@ -43,6 +44,7 @@ class SdlWindow {
     };
 
     Library library_;
+    bool offscreen_;
     std::unique_ptr<SDL_Window, DestroyWindow> window_;
     std::unique_ptr<std::remove_pointer_t<SDL_GLContext>, DeleteContext> context_;
     std::string renderer_, title_;

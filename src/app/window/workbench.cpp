@@ -30,7 +30,8 @@ Kind nextOf(std::span<const Named<Kind>> all, Kind kind, std::size_t further) {
 }  // namespace
 
 Workbench::Workbench(const Options& options)
-    : pacer_(1, options.window.speed), paused_(options.window.paused) {
+    : pacer_(1, options.window.speed.value_or(options.window.offscreen ? 0 : 1)),
+      paused_(options.window.paused) {
     start(setUp(options), options);
 }
 
