@@ -70,6 +70,22 @@ BodyStore::Columns<To> converted(const BodyStore::Columns<From>& from) {
 
 }  // namespace
 
+BodyMirror::~BodyMirror() {
+    if (newestOf_ != nullptr) newestOf_->newestIs(nullptr);
+}
+
+void BodyMirror::bringHome() {
+    if (newestOf_ != nullptr) newestOf_->bringNewest();
+}
+
+BodyStore::BodyStore(BodyStore&& other)
+    : columns_((other.bringNewest(), std::exchange(other.columns_, {}))),
+      revision_(other.revision_),
+      advanced_(other.advanced_),
+      physics_(other.physics_) {
+    other.countEdit();
+}
+
 std::uint64_t BodyStore::nextRevision() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;
@@ -157,6 +173,20 @@ void BodyStore::place(double t) {
             }
         },
         columns_);
+}
+
+void BodyStore::advancedBy(BodyMirror& mirror, const Physics& physics) {
+    std::visit(
+        [](auto& columns) {
+            auto& m = columns.moving;
+            m.anchors.keep(false, m.size());
+            m.rests.keep(false, m.size());
+        },
+        columns_);
+    advanced_ = revision_;
+    physics_ = physics;
+    placedLater_.reset();
+    newestIs(&mirror);
 }
 
 BodyRef BodyStore::append(const NewBody& body) {

@@ -90,12 +90,25 @@ inline Physics physicsOf(Law law, const StepSettings& step) {
 
 class BodyStore;
 
-/// Who holds a newer state than the store does: a device.
+/// Who holds a newer state than the store does: a device. Mirror and store know of each other, so
+/// that either may end first.
 class BodyMirror {
   public:
-    virtual ~BodyMirror() = default;
+    BodyMirror() = default;
+    virtual ~BodyMirror();
+    BodyMirror(const BodyMirror&) = delete;
+    BodyMirror& operator=(const BodyMirror&) = delete;
+
     /// Writes the newest state to the store. Throws DeviceError.
     virtual void fetch(BodyStore& store) = 0;
+
+  protected:
+    /// For a mirror that is about to end: has the store fetch what it alone knows.
+    void bringHome();
+
+  private:
+    friend class BodyStore;
+    BodyStore* newestOf_ = nullptr;  // of which this has the newest state
 };
 
 /// The bodies of a world in columns, and who has their newest state. Everybody who wants them asks
@@ -127,6 +140,13 @@ class BodyStore {
         MutableBodyView<Real> view_;
     };
 
+    BodyStore() = default;
+    ~BodyStore() { newestIs(nullptr); }
+    /// Brings the newest here, and leaves the other one empty.
+    BodyStore(BodyStore&& other);
+    BodyStore(const BodyStore&) = delete;
+    BodyStore& operator=(const BodyStore&) = delete;
+
     Precision precision() const { return static_cast<Precision>(columns_.index()); }
     std::size_t movingCount() const;
     std::size_t staticCount() const;
@@ -152,7 +172,11 @@ class BodyStore {
 
     /// From here on the mirror has the newest state, until somebody asks for it; null to forget a
     /// mirror whose state is lost or not wanted.
-    void newestIs(BodyMirror* mirror) { mirror_ = mirror; }
+    void newestIs(BodyMirror* mirror) { setMirror(mirror); }
+
+    /// For an engine whose bodies lie elsewhere: as `advance`, but nothing is brought here, and
+    /// from here on the mirror has the newest state. Its law keeps no columns.
+    void advancedBy(BodyMirror& mirror, const Physics& physics);
 
     /// From here on the bodies are where their anchors say that they are at time `t`, in s, under
     /// the physics of the last advance(). They are placed there when somebody wants to know.
@@ -214,7 +238,7 @@ class BodyStore {
     /// Under which a law advanced them last.
     const Physics& physics() const { return physics_; }
     void replace(AnyColumns columns, bool edited, const Physics& physics) {
-        mirror_ = nullptr;
+        newestIs(nullptr);
         placedLater_.reset();
         columns_ = std::move(columns);
         countEdit();
@@ -226,6 +250,7 @@ class BodyStore {
     std::size_t bytes() const;
 
   private:
+    friend class BodyMirror;
     friend class World;  // its editBodies guards an edit where this type is not known
 
     template <class Real>
@@ -244,9 +269,16 @@ class BodyStore {
     /// Reading may have to write what the mirror knows, which changes nothing for the reader.
     void bringNewest() const {
         if (mirror_ != nullptr) {
-            std::exchange(mirror_, nullptr)->fetch(const_cast<BodyStore&>(*this));
+            BodyMirror& mirror = *mirror_;
+            setMirror(nullptr);
+            mirror.fetch(const_cast<BodyStore&>(*this));
         }
         if (placedLater_) const_cast<BodyStore&>(*this).place(*std::exchange(placedLater_, {}));
+    }
+    void setMirror(BodyMirror* mirror) const {
+        if (mirror_ != nullptr) mirror_->newestOf_ = nullptr;
+        mirror_ = mirror;
+        if (mirror_ != nullptr) mirror_->newestOf_ = const_cast<BodyStore*>(this);
     }
     void place(double t);
     void countEdit() { revision_ = nextRevision(); }

@@ -222,6 +222,40 @@ TEST(BodyMirror, ThatIsLostIsAnErrorOnceAndLeavesTheLastKnownState) {
     EXPECT_EQ(store.read<double>().moving.x[0], 0.125);
 }
 
+TEST(BodyMirror, AndStoreMayEndInAnyOrder) {
+    FakeMirror outlives;
+    {
+        BodyStore store = numberedStore();
+        store.newestIs(&outlives);
+    }
+    BodyStore other = numberedStore();
+    {
+        FakeMirror ends;
+        other.newestIs(&ends);
+    }
+    EXPECT_EQ(other.read<double>().moving.x[0], 0.125) << "nobody is there to be asked";
+    other.newestIs(&outlives);
+    EXPECT_EQ(other.read<double>().moving.x[0], 77);
+    EXPECT_EQ(outlives.fetched, 1);
+}
+
+TEST(BodyMirror, ThatAdvancesTheBodiesIsNewestAndNoEdit) {
+    BodyStore store = numberedStore();
+    FakeMirror mirror;
+    store.advance<double>({.anchors = true, .rests = true});
+    const std::uint64_t revision = store.revision();
+    const Physics physics{.law = Law::Impulse, .gravity = {0, -5}, .restitution = 0.5};
+    store.newestIs(&mirror);
+    store.advancedBy(mirror, physics);
+    EXPECT_EQ(mirror.fetched, 0) << "an engine that has the bodies needs none";
+    EXPECT_EQ(store.revision(), revision);
+    EXPECT_FALSE(store.edited());
+    EXPECT_EQ(store.physics(), physics);
+    EXPECT_EQ(store.read<double>().moving.x[0], 77);
+    EXPECT_FALSE(std::get<0>(store.columns()).moving.anchors.kept()) << "they would be out of date";
+    EXPECT_FALSE(std::get<0>(store.columns()).moving.rests.kept());
+}
+
 // ---- edits
 
 TEST(BodyStore, AnEditCountsWhenItEnds) {
