@@ -1,5 +1,6 @@
 #include "cuda/bodies/device_bodies.hpp"
 
+#include <algorithm>
 #include <span>
 
 namespace quadrille::cuda {
@@ -11,7 +12,7 @@ DeviceBodies<Real>::DeviceBodies(DeviceSession& device) : device_(device) {
 }
 
 template <class Real>
-void DeviceBodies<Real>::upload(const BodyView<Real>& view, PhaseClock& clock) {
+void DeviceBodies<Real>::load(const BodyView<Real>& view, PhaseClock& clock) {
     const auto& m = view.moving;
     const auto& f = view.fixed;
     PackedUpload& u = upload_;
@@ -21,7 +22,7 @@ void DeviceBodies<Real>::upload(const BodyView<Real>& view, PhaseClock& clock) {
     const std::size_t halfWidth = u.add(m.halfWidth.values);
     const std::size_t halfHeight = u.add(m.halfHeight.values);
     const std::size_t mass = u.add(m.mass.values);
-    const std::size_t entity = u.add(m.entity);
+    entity_ = u.add(m.entity);
     created_ = u.add(m.created.numbers);
     const std::size_t fixedX = u.add(f.x), fixedY = u.add(f.y);
     const std::size_t fixedWidth = u.add(f.halfWidth), fixedHeight = u.add(f.halfHeight);
@@ -44,7 +45,7 @@ void DeviceBodies<Real>::upload(const BodyView<Real>& view, PhaseClock& clock) {
                           .halfWidth = shared(halfWidth, m.halfWidth),
                           .halfHeight = shared(halfHeight, m.halfHeight),
                           .mass = shared(mass, m.mass),
-                          .entity = u.on<const std::uint32_t>(entity),
+                          .entity = u.on<const std::uint32_t>(entity_),
                           .created = numbers(created_),
                           .anchors = nullptr,
                           .rests = nullptr},
@@ -55,6 +56,7 @@ void DeviceBodies<Real>::upload(const BodyView<Real>& view, PhaseClock& clock) {
                          .entity = u.on<const std::uint32_t>(fixedEntity),
                          .created = numbers(fixedCreated_)}};
     movingCount_ = static_cast<std::uint32_t>(m.size());
+    fixedCount_ = static_cast<std::uint32_t>(f.size());
     revision_ = view.revision;
     touchedRows_.reserve(m.size());
     hostRows_.reserve(m.size());
@@ -65,15 +67,40 @@ void DeviceBodies<Real>::upload(const BodyView<Real>& view, PhaseClock& clock) {
 }
 
 template <class Real>
+void DeviceBodies<Real>::moveOn(const StepParameters<Real>& step) {
+    launchBeginStep(device_.launch(), bodies_, movingCount_, step, counts_.data());
+}
+
+template <class Real>
+void DeviceBodies<Real>::fetch(const MutableBodyView<Real>& bodies) const {
+    const auto& from = bodies_.moving;
+    const auto& to = bodies.moving;
+    const std::size_t rows = movingCount_;
+    const Real* const here[] = {from.x, from.y, from.vx, from.vy};
+    Real* const there[] = {to.x.data(), to.y.data(), to.vx.data(), to.vy.data()};
+    for (std::size_t i = 0; i < 4 && rows > 0; ++i) {
+        check(cudaMemcpyAsync(hostColumns_.data() + i * rows, here[i], rows * sizeof(Real),
+                              cudaMemcpyDeviceToHost, device_.launch().stream),
+              "copy from the device");
+    }
+    device_.wait();
+    device_.team().shares(rows, &Thresholds::copied, [&](std::size_t b, std::size_t e, unsigned) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            std::copy_n(hostColumns_.data() + i * rows + b, e - b, there[i] + b);
+        }
+    });
+}
+
+template <class Real>
 void DeviceBodies<Real>::beginStep(const LawBodies<Real>& bodies, Step<Real>& step) {
     const bool kept = valid_ && !bodies.edited && revision_ == bodies.revision &&
                       movingCount_ == bodies.moving.size();
     valid_ = false;  // until the step has succeeded
     movingCount_ = 0;
     if (bodies.moving.size() == 0) return;
-    if (!kept) upload(bodies.read(), step.clock);
+    if (!kept) load(bodies.read(), step.clock);
     movingCount_ = static_cast<std::uint32_t>(bodies.moving.size());
-    launchBeginStep(device_.launch(), bodies_, movingCount_, step.parameters, counts_.data());
+    moveOn(step.parameters);
 }
 
 template <class Real>
@@ -83,7 +110,7 @@ void DeviceBodies<Real>::zeroCounts() {
 
 template <class Real>
 void DeviceBodies<Real>::restart(const LawBodies<Real>& bodies, PhaseClock& clock) {
-    upload(bodies.read(), clock);
+    load(bodies.read(), clock);
     zeroCounts();
 }
 

@@ -21,6 +21,13 @@ class DeviceBodies {
     /// `device` must outlive this.
     explicit DeviceBodies(DeviceSession& device);
 
+    /// Makes the bodies those of the host.
+    void load(const BodyView<Real>& view, PhaseClock& clock);
+    /// Moves them to the end of a step, and zeroes the counts.
+    void moveOn(const StepParameters<Real>& step);
+    /// Copies positions and velocities to the rows that were loaded; writes nothing if that fails.
+    void fetch(const MutableBodyView<Real>& bodies) const;
+
     /// Makes the bodies those of the host at the start of the step, and moves them to its end, to
     /// where the host moves its own. Zeroes the counts.
     void beginStep(const LawBodies<Real>& bodies, Step<Real>& step);
@@ -38,6 +45,7 @@ class DeviceBodies {
 
     const Bodies<Real>& bodies() const { return bodies_; }
     std::uint32_t movingCount() const { return movingCount_; }
+    std::uint32_t fixedCount() const { return fixedCount_; }
     StepCounts* counts() const { return counts_.data(); }
     TouchedBodies touched() const { return {touchedRows_.data(), counts_.data()}; }
 
@@ -45,17 +53,20 @@ class DeviceBodies {
     /// of the host's bodies may have changed in the meantime.
     CanonicalOrder hostOrder() const;
 
+    /// The entity in a moving row.
+    std::uint32_t entityAt(std::uint32_t row) const {
+        return upload_.onHost<std::uint32_t>(entity_)[row];
+    }
+
     /// Of page-locked host memory.
     std::size_t hostBytes() const;
 
   private:
-    void upload(const BodyView<Real>& view, PhaseClock& clock);
-
     DeviceSession& device_;
     PackedUpload upload_{device_.budget()};
-    std::size_t created_ = 0, fixedCreated_ = 0;  // parts of it
+    std::size_t entity_ = 0, created_ = 0, fixedCreated_ = 0;  // parts of it
     Bodies<Real> bodies_{};
-    std::uint32_t movingCount_ = 0;
+    std::uint32_t movingCount_ = 0, fixedCount_ = 0;
     std::uint64_t revision_ = 0;  // of the host's bodies that are here
     bool valid_ = false;          // the bodies here are those of the host
 

@@ -97,8 +97,9 @@ void DeviceSession::end(Phase phase, const PhaseClock& clock) {
 void DeviceSession::finish(PhaseClock& clock) {
     wait();
     clock.finish(Phase::Resolve);
-    for (const Phase phase : {Phase::CopyToDevice, Phase::CopyToHost}) {
-        clock.move(Phase::Resolve, phase, timerOf(phase).take());
+    if (!clock.enabled()) return;
+    for (std::size_t i = 0; i < phaseCount; ++i) {
+        clock.move(Phase::Resolve, static_cast<Phase>(i), timers_[i].take());
     }
 }
 

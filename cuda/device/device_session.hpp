@@ -65,6 +65,7 @@ class DeviceSession {
     /// Sets all bytes of the first elements.
     template <class T>
     void fill(const DeviceArray<T>& array, int byte, std::size_t count) const {
+        if (count == 0) return;
         check(cudaMemsetAsync(array.data(), byte, count * sizeof(T), launch().stream),
               "cudaMemsetAsync");
     }
@@ -79,21 +80,20 @@ class DeviceSession {
         if (array.reserve(count)) fill(array, 0);
     }
 
-    /// Between these, the device does what belongs to a phase of its own: CopyToDevice or
-    /// CopyToHost. In a profiled run it takes the time, so that nothing needs to be waited for but
-    /// the end of the step.
+    /// Between these, the device does what belongs to another phase than Resolve. In a profiled run
+    /// it takes the time, so that nothing needs to be waited for but the end of the step.
     void begin(Phase phase, const PhaseClock& clock);
     void end(Phase phase, const PhaseClock& clock);
     /// Waits for all work, as a part of the phase Resolve, and gives those phases their times.
     void finish(PhaseClock& clock);
 
   private:
-    StreamTimer& timerOf(Phase phase) { return timers_[phase == Phase::CopyToHost]; }
+    StreamTimer& timerOf(Phase phase) { return timers_[static_cast<std::size_t>(phase)]; }
 
     Stream stream_;
     const ThreadTeam& team_;
     MemoryBudget budget_;
-    std::array<StreamTimer, 2> timers_;
+    std::array<StreamTimer, phaseCount> timers_;
 };
 
 }  // namespace quadrille::cuda

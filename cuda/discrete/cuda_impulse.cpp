@@ -1,50 +1,12 @@
 #include "cuda/discrete/cuda_impulse.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <numeric>
-#include <string>
-
-#include <quadrille/error.hpp>
 
 #include "collision/broad/extents.hpp"
-#include "collision/make_record.hpp"
 #include "collision/rules/pair_geometry.hpp"
 #include "cuda/device/range.hpp"
 
 namespace quadrille::cuda {
-
-namespace {
-
-/// Contacts and pairs are counted in 32 bits on the device, with room for what grows beyond them.
-std::uint32_t count31(std::uint64_t count, const char* what) {
-    if (count > none / 2) {
-        throw DeviceError("cuda: " + std::to_string(count) + ' ' + what +
-                          " in a step are more than 31 bits can count");
-    }
-    return static_cast<std::uint32_t>(count);
-}
-
-}  // namespace
-
-/// Makes the lists of all bodies empty, where a step has not left them so.
-template <class Real>
-void CudaImpulse<Real>::reserveLists() {
-    if (heads_.reserve(bodies_.movingCount()) || !listsEmpty_) device_.fill(heads_, 0xff);
-    listsEmpty_ = false;
-}
-
-template <class Real>
-void CudaImpulse<Real>::reserveContacts(std::uint64_t count) {
-    capacity_ = 0;
-    const std::uint32_t wanted = count31(count, "contacts");
-    device_.reserveZeroed(contacts_, wanted);
-    nextA_.reserve(wanted);
-    nextB_.reserve(wanted);
-    successors_.reserve(wanted);
-    waiting_.reserve(wanted);
-    capacity_ = wanted;
-}
 
 /// Collects the candidate pairs anew if the partition was built since the last call.
 template <class Real>
@@ -73,36 +35,10 @@ void CudaImpulse<Real>::collect(const LawBodies<Real>& bodies, const Partition<R
     }
 }
 
-/// Cells that are out of date may show a pair more than once. The table stays half empty at least,
-/// unless there are more contacts than room.
-template <class Real>
-void CudaImpulse<Real>::forgetSeenPairs(const Partition<Real>& partition) {
-    if (partition.complete) {
-        seen_ = {};
-        return;
-    }
-    const std::size_t slots = std::bit_ceil(2 * std::size_t(capacity_));
-    seenSlots_.reserve(slots);
-    seen_ = {seenSlots_.data(), static_cast<std::uint32_t>(slots - 1)};
-    device_.fill(seenSlots_, 0xff, slots);
-}
-
 /// Does the step's work on the device, unless there turn out to be more contacts than room.
 template <class Real>
 StepCounts CudaImpulse<Real>::tryStep(const Partition<Real>& partition, Step<Real>& step) {
-    reserveLists();
-    forgetSeenPairs(partition);
-    if (step.keepContacts) device_.reserveZeroed(outcomes_, capacity_);
-    const DeviceContacts<Real> list{.contacts = contacts_.data(),
-                                    .nextA = nextA_.data(),
-                                    .nextB = nextB_.data(),
-                                    .successors = successors_.data(),
-                                    .waiting = waiting_.data(),
-                                    .outcomes = step.keepContacts ? outcomes_.data() : nullptr,
-                                    .capacity = capacity_,
-                                    .heads = heads_.data(),
-                                    .seen = seen_,
-                                    .counts = bodies_.counts()};
+    const DeviceContacts<Real> list = contacts_.begin(partition.complete, step.keepContacts);
     const Launch& launch = device_.launch();
     const Bodies<Real>& bodies = bodies_.bodies();
     if (partition.margin > 0) {
@@ -111,10 +47,10 @@ StepCounts CudaImpulse<Real>::tryStep(const Partition<Real>& partition, Step<Rea
     } else {
         findContacts(launch, bodies, cells_.cells(), cells_.ownership(), step.parameters.dt, list);
     }
-    findSuccessors(launch, list, canonicalOrder(bodies), expected_);
-    launchImpulse(launch, bodies, list, step.parameters, bodies_.touched(), expected_);
+    contacts_.resolve(list, step.parameters);
     device_.begin(Phase::CopyToHost, step.clock);
-    publishImpulse(launch, bodies, list, bodies_.touched(), bodies_.hostResult(), 2 * expected_);
+    publishImpulse(launch, bodies, list, bodies_.touched(), bodies_.hostResult(),
+                   2 * contacts_.expected());
     device_.end(Phase::CopyToHost, step.clock);
     return bodies_.finish(step.clock);
 }
@@ -150,43 +86,18 @@ template <class Real>
 void CudaImpulse<Real>::resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                                 Step<Real>& step) {
     const Range range("quadrille impulse");
-    if (capacity_ == 0) {
-        expected_ = bodies_.movingCount() / 2 + 1024;
-        reserveContacts(expected_);
-    }
     if (partition.margin > 0) collect(bodies, partition);
     StepCounts counts = tryStep(partition, step);
-    while (counts.contacts > capacity_) {
-        reserveContacts(counts.contacts + counts.contacts / 4);
-        expected_ = count31(counts.contacts, "contacts");
+    while (contacts_.lacksRoom(counts)) {
+        contacts_.makeRoom(counts.contacts);
         bodies_.zeroCounts();
         counts = tryStep(partition, step);
     }
-    listsEmpty_ = true;
     keepOut(bodies, counts.touched, step.parameters.dt);
-    const auto found = static_cast<std::uint32_t>(counts.contacts);
-    expected_ = std::max<std::uint32_t>(found + found / 4, 64);
+    contacts_.end(counts);
     step.counts.contacts += counts.contacts;
     step.counts.collisions += counts.collisions;
     step.counts.pairsTested += partition.margin > 0 ? candidateCount_ : counts.tested;
-}
-
-template <class Real>
-void CudaImpulse<Real>::fetchContacts(std::size_t count, const StepParameters<Real>& step,
-                                      std::vector<ContactRecord>& records) const {
-    std::vector<PendingContact<Real>> contacts(count);
-    std::vector<ContactOutcome<Real>> outcomes(count);
-    device_.fetch(contacts.data(), contacts_.data(), count * sizeof contacts[0]);
-    device_.fetch(outcomes.data(), outcomes_.data(), count * sizeof outcomes[0]);
-    std::vector<std::uint32_t> places(count);
-    std::iota(places.begin(), places.end(), 0u);
-    std::sort(places.begin(), places.end(),
-              [&, before = bodies_.hostOrder()](std::uint32_t p, std::uint32_t q) {
-                  return before(contacts[p], contacts[q]);
-              });
-    for (const std::uint32_t i : places) {
-        records.push_back(makeRecord(ResolvedContact<Real>{contacts[i], outcomes[i]}, step.start));
-    }
 }
 
 template class CudaImpulse<double>;

@@ -6,7 +6,7 @@
 
 #include "collision/static_barrier.hpp"
 #include "cuda/discrete/cuda_law.hpp"
-#include "cuda/discrete/impulse_kernels.hpp"
+#include "cuda/discrete/impulse_contacts.hpp"
 
 namespace quadrille::cuda {
 
@@ -25,12 +25,11 @@ class CudaImpulse final : public CudaLaw<Real> {
     void resolve(const LawBodies<Real>& bodies, const Partition<Real>& partition,
                  Step<Real>& step) override;
     void fetchContacts(std::size_t count, const StepParameters<Real>& step,
-                       std::vector<ContactRecord>& records) const override;
+                       std::vector<ContactRecord>& records) const override {
+        contacts_.fetch(count, step, records);
+    }
 
-    void reserveLists();
-    void reserveContacts(std::uint64_t count);
     void collect(const LawBodies<Real>& bodies, const Partition<Real>& partition);
-    void forgetSeenPairs(const Partition<Real>& partition);
     void keepOut(const LawBodies<Real>& bodies, std::uint32_t touched, Real dt);
     StepCounts tryStep(const Partition<Real>& partition, Step<Real>& step);
 
@@ -38,17 +37,7 @@ class CudaImpulse final : public CudaLaw<Real> {
     DeviceArray<CandidatePair> candidates_{device_.budget()};
     std::uint32_t candidateCount_ = 0;
     std::uint64_t candidatesOf_ = 0;  // generation of the partition that they come from
-    DeviceArray<PendingContact<Real>> contacts_{device_.budget()};
-    DeviceArray<std::uint32_t> nextA_{device_.budget()}, nextB_{device_.budget()};
-    DeviceArray<Successors> successors_{device_.budget()};
-    DeviceArray<std::uint32_t> waiting_{device_.budget()};
-    DeviceArray<ContactOutcome<Real>> outcomes_{device_.budget()};
-    DeviceArray<std::uint32_t> heads_{device_.budget()};
-    DeviceArray<unsigned long long> seenSlots_{device_.budget()};
-    SeenPairs seen_{};
-    std::uint32_t capacity_ = 0;  // contacts for which there is room
-    std::uint32_t expected_ = 0;  // contacts, judging by the last step
-    bool listsEmpty_ = false;
+    ImpulseContacts<Real> contacts_{device_, bodies_};
 };
 
 }  // namespace quadrille::cuda

@@ -96,6 +96,7 @@ __device__ void handOut(const CellOwnership<Real>& ownership, std::uint32_t cell
 /// The cell of an entry: the last that begins at or before it. Empty cells begin where the next
 /// one does, so it is one that holds the entry.
 __device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t entry) {
+    if (cells.cellOfEntry != nullptr) return cells.cellOfEntry[entry];
     std::uint32_t low = 0;
     std::uint32_t high = cells.cells;
     while (high - low > 1) {
@@ -161,8 +162,10 @@ __global__ void __launch_bounds__(largestBlock)
     };
 
     unsigned long long tested = 0;
-    const bool there = threadNumber() < cells.entries;
-    const std::uint32_t entry = there ? threadNumber() : cells.entries - 1;
+    const std::uint32_t entries = cells.offsets[cells.cells];
+    if (entries > cells.entries || blockIdx.x * blockDim.x >= entries) return;
+    const bool there = threadNumber() < entries;
+    const std::uint32_t entry = there ? threadNumber() : entries - 1;
     const std::uint32_t cell = cellOf(cells, entry);
     const std::uint32_t first = cells.offsets[cell];
     const std::uint32_t members = cells.offsets[cell + 1] - first;
@@ -201,7 +204,7 @@ __global__ void __launch_bounds__(largestBlock)
                    Real inflation, Found found, StepCounts* counts) {
     unsigned long long tested = 0;
     const std::uint32_t cell = threadNumber();
-    if (cell < cells.cells) {
+    if (cell < cells.cells && cells.offsets[cells.cells] <= cells.entries) {
         const std::uint32_t last = cells.offsets[cell + 1];
         for (std::uint32_t i = cells.offsets[cell]; i < last; ++i) {
             const Member<Real> self(bodies, cells, i);

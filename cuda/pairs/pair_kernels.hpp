@@ -16,11 +16,14 @@
 
 namespace quadrille::cuda {
 
-/// The cells of a partition, as Cells has them.
+/// The cells of a partition, as Cells has them. In a cell the static bodies stand last.
 struct DeviceCells {
     const std::uint32_t* offsets;
     const BodyRef* bodies;
-    std::uint32_t cells, entries;
+    const std::uint32_t* cellOfEntry;  ///< null to search for it
+    std::uint32_t cells;
+    /// Room for entries. Where there turn out to be more, nothing is done.
+    std::uint32_t entries;
 };
 
 /// To which cell of a partition each pair belongs, as Partition has it. The ranges of bodies are

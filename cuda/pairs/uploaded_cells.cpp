@@ -22,6 +22,7 @@ void UploadedCells<Real>::update(const Partition<Real>& partition, PhaseClock& c
     device_.end(Phase::CopyToDevice, clock);
     cells_ = {.offsets = u.on<const std::uint32_t>(offsets),
               .bodies = u.on<const BodyRef>(bodies),
+              .cellOfEntry = nullptr,
               .cells = static_cast<std::uint32_t>(cells.size()),
               .entries = static_cast<std::uint32_t>(cells.bodies.size())};
     ownership_ = {.coordinates = u.on<const CellCoordinates>(coordinates),
