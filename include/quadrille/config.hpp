@@ -16,7 +16,7 @@ enum class Law : std::uint8_t { Baseline, Impulse, Continuous };
 
 /// Who finds and resolves the contacts. Auto is the fastest that there is for the world's size; the
 /// result is the same.
-enum class ResolverKind : std::uint8_t { Auto, Sequential, Threads, Cuda };
+enum class ResolverKind : std::uint8_t { Auto, Sequential, Threads, Cuda, CudaResident };
 
 /// What a scene says about its steps.
 struct StepSettings {
@@ -31,7 +31,7 @@ struct SimulationConfig {
     Law law = Law::Continuous;
     Precision precision = Precision::Double;
     ResolverKind resolver = ResolverKind::Sequential;
-    int threads = 0;  ///< of Threads, and of Cuda on the host; 0: one for each core
+    int threads = 0;  ///< of Threads, and of the host beside a device; 0: one for each core
     StepSettings step{};
     bool keepContacts = false;      ///< for Simulation::contacts; listeners have them in any case
     bool profile = false;           ///< measure the phases of each step

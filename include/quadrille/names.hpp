@@ -66,4 +66,7 @@ std::string alternatives(std::span<const Named<Kind>> all) {
 /// Whether the law runs on the resolver. `Auto` runs every law.
 bool runsOn(Law law, ResolverKind resolver);
 
+/// Whether the resolver is nothing without a CUDA device. `Auto` takes one only if it is there.
+bool needsDevice(ResolverKind resolver);
+
 }  // namespace quadrille

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include <quadrille/names.hpp>
 
@@ -28,6 +29,19 @@ std::string_view aboutOf(Law law) {
         if (named.kind == law) return named.about;
     }
     return "";
+}
+
+/// What of a step that runs on the device, and what of it costs a copy to the host.
+void explainResident(std::ostream& out, const SimulationConfig& config, const ModelFeatures& f,
+                     bool window) {
+    const bool named = std::holds_alternative<StaticGrid>(config.partitioner);
+    row(out, named, "cells as named",
+        named ? "" : "a grid on the device stands in; the result is the same");
+    const bool read = f.listeners || window;
+    row(out, read, "bodies read each step",
+        read ? "positions and velocities are copied to the host" : "they stay on the device");
+    row(out, config.countMissedPairs, "steps on the host",
+        config.countMissedPairs ? "those whose missed pairs are counted" : "");
 }
 
 }  // namespace
@@ -64,6 +78,7 @@ void explain(std::ostream& out, const Run& run, bool window) {
         : f.massesDiffer ? ""
                          : "equal masses swap their velocities");
     row(out, f.listeners, "contact listeners", f.listeners ? "" : "no list of events is made");
+    if (config.resolver == ResolverKind::CudaResident) explainResident(out, config, f, window);
     const bool profile = f.profile || window;
     row(out, profile, "profile", profile ? "" : "no clock is read inside a step");
     row(out, window, "renderer",

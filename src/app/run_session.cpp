@@ -99,7 +99,7 @@ void RunSession::keepCheckpoint() {
 int RunSession::leaveFrame(int signal) {
     SimulationConfig config = checkpoint_->config;
     // The device may be what hangs; the result is the same.
-    if (config.resolver == ResolverKind::Cuda) config.resolver = ResolverKind::Sequential;
+    if (needsDevice(config.resolver)) config.resolver = ResolverKind::Sequential;
     config.keepContacts = false;
     config.countMissedPairs = false;
     Run run{.scene = run_.scene,

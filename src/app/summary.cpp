@@ -87,8 +87,7 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["resolver"] = name(config.resolver);
     json["requested_resolver"] = name(run.requestedResolver);
     json["threads"] = run.simulation.threads();
-    json["device"] =
-        config.resolver == ResolverKind::Cuda ? Json(findCudaDevice().name) : Json(nullptr);
+    json["device"] = needsDevice(config.resolver) ? Json(findCudaDevice().name) : Json(nullptr);
     json["ms_per_frame"] = {{"mean", times.mean}, {"median", times.median}, {"p99", times.p99}};
     if (config.profile) {
         const auto phases = statistics.phaseMilliseconds();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -33,6 +34,10 @@ void integrateAll(const MutableBodyView<Real>& bodies, const StepParameters<Real
     });
 }
 
+[[noreturn]] inline void failNotFinite(std::uint32_t entity) {
+    throw Error("entity " + std::to_string(entity) + ": its position is no longer finite");
+}
+
 /// Stops a run before a NaN spreads: throws Error if a position is not finite.
 template <class Real>
 void requireFinite(const BodyView<Real>& bodies, const ThreadTeam& team) {
@@ -50,10 +55,7 @@ void requireFinite(const BodyView<Real>& bodies, const ThreadTeam& team) {
         });
     if (!anyBad) return;
     for (std::size_t i = 0; i < m.size(); ++i) {
-        if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
-            throw Error("entity " + std::to_string(m.entity[i]) +
-                        ": its position is no longer finite");
-        }
+        if (!std::isfinite(x[i]) || !std::isfinite(y[i])) failNotFinite(m.entity[i]);
     }
 }
 

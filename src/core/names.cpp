@@ -14,12 +14,14 @@ constexpr std::array<Named<Law>, 3> lawTable = {{
      "exact, the default: all events of a step in the order of time"},
 }};
 
-constexpr std::array<Named<ResolverKind>, 4> resolverTable = {{
+constexpr std::array<Named<ResolverKind>, 5> resolverTable = {{
     {ResolverKind::Auto, "auto",
      "cuda or threads for many bodies, where there is a device or more than one core"},
     {ResolverKind::Sequential, "sequential", "one core"},
     {ResolverKind::Threads, "threads", "all cores"},
     {ResolverKind::Cuda, "cuda", "contacts on a CUDA device, cells on the host"},
+    {ResolverKind::CudaResident, "cuda-resident",
+     "bodies, cells and contacts on a CUDA device, of which the host has what is read"},
 }};
 
 constexpr std::array<Named<Precision>, 2> precisionTable = {{

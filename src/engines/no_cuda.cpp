@@ -4,6 +4,7 @@
 #include <quadrille/error.hpp>
 
 #include "cuda/laws.hpp"
+#include "cuda/resident_pipeline.hpp"
 
 namespace quadrille {
 
@@ -20,11 +21,19 @@ std::unique_ptr<ContactLaw<Real>> makeCudaImpulse(const SimulationConfig& config
     return makeCudaBaseline<Real>(config, team);
 }
 
+template <class Real>
+std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse(const SimulationConfig&, const Vec2&,
+                                                            const ThreadTeam&) {
+    throw DeviceError("cuda: " + findCudaDevice().reason);
+}
+
 #define QUADRILLE_INSTANTIATE(Real)                                                      \
     template std::unique_ptr<ContactLaw<Real>> makeCudaBaseline(const SimulationConfig&, \
                                                                 const ThreadTeam&);      \
     template std::unique_ptr<ContactLaw<Real>> makeCudaImpulse(const SimulationConfig&,  \
-                                                               const ThreadTeam&);
+                                                               const ThreadTeam&);       \
+    template std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse(                \
+        const SimulationConfig&, const Vec2&, const ThreadTeam&);
 QUADRILLE_INSTANTIATE(double)
 QUADRILLE_INSTANTIATE(float)
 

@@ -30,8 +30,8 @@ TEST(Help, NamesTheValuesOfEnumeratedOptions) {
     const std::string help = runProgram({"--help"}).out;
     for (const char* value :
          {"brute-force", "static-grid", "quadtree", "semi-static-quadtree", "skin", "every:K",
-          "auto", "sequential", "threads", "cuda", "baseline", "impulse", "continuous", "double",
-          "float", "balanced", "26,26"}) {
+          "auto", "sequential", "threads", "cuda", "cuda-resident", "baseline", "impulse",
+          "continuous", "double", "float", "balanced", "26,26"}) {
         EXPECT_TRUE(contains(help, value)) << value;
     }
 }

@@ -39,7 +39,7 @@ TEST_P(Fallback, IsNamedInEveryOutput) {
     EXPECT_EQ(summary["requested_resolver"], GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda"),
+INSTANTIATE_TEST_SUITE_P(Resolver, Fallback, testing::Values("cuda", "cuda-resident"),
                          [](const auto& test) { return identifier(test.param); });
 
 class NoDevice : public testing::TestWithParam<std::string> {};
@@ -50,7 +50,7 @@ TEST_P(NoDevice, IsAnErrorWithoutFallback) {
                   4, {GetParam()});
 }
 
-INSTANTIATE_TEST_SUITE_P(Resolver, NoDevice, testing::Values("cuda"),
+INSTANTIATE_TEST_SUITE_P(Resolver, NoDevice, testing::Values("cuda", "cuda-resident"),
                          [](const auto& test) { return identifier(test.param); });
 
 TEST(Resolver, AutoNeedsNoFallback) {

@@ -25,8 +25,8 @@ TEST(Usage, UnknownPartitionerListsTheValidOnes) {
 }
 
 TEST(Usage, UnknownResolverListsTheValidOnes) {
-    expectUsageError({"--resolver", "fpga"},
-                     {"--resolver", "fpga", "auto", "sequential", "threads", "cuda"});
+    expectUsageError({"--resolver", "fpga"}, {"--resolver", "fpga", "auto", "sequential", "threads",
+                                              "cuda", "cuda-resident"});
 }
 
 TEST(Usage, UnknownLawListsTheValidOnes) {

@@ -42,14 +42,15 @@ TEST(Names, LeadBothWays) {
 
 TEST(Names, CoverEveryKind) {
     EXPECT_EQ(laws().size(), 3u);
-    EXPECT_EQ(resolvers().size(), 4u);
+    EXPECT_EQ(resolvers().size(), 5u);
     EXPECT_EQ(precisions().size(), 2u);
     EXPECT_EQ(partitioners().size(), std::variant_size_v<PartitionerConfig>);
     for (const Law law : {Law::Baseline, Law::Impulse, Law::Continuous}) {
         EXPECT_NE(name(law), "");
     }
-    for (const ResolverKind resolver : {ResolverKind::Auto, ResolverKind::Sequential,
-                                        ResolverKind::Threads, ResolverKind::Cuda}) {
+    for (const ResolverKind resolver :
+         {ResolverKind::Auto, ResolverKind::Sequential, ResolverKind::Threads, ResolverKind::Cuda,
+          ResolverKind::CudaResident}) {
         EXPECT_NE(name(resolver), "");
     }
     for (const Precision precision : {Precision::Double, Precision::Float}) {
@@ -66,6 +67,7 @@ TEST(Names, AreThoseOfTheCommandLine) {
     EXPECT_EQ(name(ResolverKind::Sequential), "sequential");
     EXPECT_EQ(name(ResolverKind::Threads), "threads");
     EXPECT_EQ(name(ResolverKind::Cuda), "cuda");
+    EXPECT_EQ(name(ResolverKind::CudaResident), "cuda-resident");
     EXPECT_EQ(name(Precision::Double), "double");
     EXPECT_EQ(name(Precision::Float), "float");
     EXPECT_EQ(name(BruteForce{}), "brute-force");

@@ -49,10 +49,9 @@ TEST(Registry, EveryPairRunsAsTheTableSays) {
                                              .precision = precision.kind,
                                              .resolver = resolver.kind,
                                              .threads = 2});
-                const Made expected = !runsOn(law.kind, resolver.kind) ? Made::NotAvailable
-                                      : resolver.kind == ResolverKind::Cuda && !device
-                                          ? Made::NoDevice
-                                          : Made::Yes;
+                const Made expected = !runsOn(law.kind, resolver.kind)        ? Made::NotAvailable
+                                      : needsDevice(resolver.kind) && !device ? Made::NoDevice
+                                                                              : Made::Yes;
                 EXPECT_EQ(made, expected);
             }
         }
@@ -69,10 +68,24 @@ TEST(Registry, EveryLawRunsOnOneCore) {
 }
 
 TEST(Registry, AFallbackDoesNotRunWhatTheResolverCannot) {
-    SimulationConfig config{.law = Law::Continuous, .resolver = ResolverKind::Cuda};
-    config.fallback = true;
-    if (runsOn(config.law, config.resolver)) GTEST_SKIP() << "it can";
-    EXPECT_EQ(tryToMake(config), Made::NotAvailable);
+    for (const ResolverKind resolver : {ResolverKind::Cuda, ResolverKind::CudaResident}) {
+        SimulationConfig config{.law = Law::Continuous, .resolver = resolver};
+        config.fallback = true;
+        if (runsOn(config.law, config.resolver)) continue;
+        EXPECT_EQ(tryToMake(config), Made::NotAvailable) << name(resolver);
+    }
+}
+
+/// It would give other results: those of a partition that misses nothing.
+TEST(Registry, ResidentCellsAreNotThoseOfATreeThatMissesPairs) {
+    SimulationConfig config{.law = Law::Impulse, .resolver = ResolverKind::CudaResident};
+    config.partitioner = SemiStaticQuadtree{10, 20, SemiStaticQuadtree::EveryFrames{10}};
+    for (const bool fallback : {false, true}) {
+        config.fallback = fallback;
+        EXPECT_THROW(makeEngine(config, Vec2(side, side)), NotAvailable);
+    }
+    config.partitioner = StaticGrid{{-1, 1}};
+    EXPECT_THROW(makeEngine(config, Vec2(side, side)), Error);
 }
 
 TEST(Registry, ThreadsAreThoseAskedForOrOneForEachCore) {
@@ -120,7 +133,7 @@ TEST(Auto, TakesOnlyWhatRunsTheLaw) {
                 const ResolverKind kind = chosen(law.kind, threads, moving);
                 EXPECT_NE(kind, ResolverKind::Auto);
                 EXPECT_TRUE(runsOn(law.kind, kind)) << law.name << " on " << name(kind);
-                EXPECT_NE(kind == ResolverKind::Cuda && !findCudaDevice().usable(), true);
+                EXPECT_NE(needsDevice(kind) && !findCudaDevice().usable(), true);
             }
         }
     }

@@ -153,7 +153,7 @@ void Workbench::restart(Options options, const std::string& success) {
 void Workbench::apply(SimulationConfig config) {
     config.countMissedPairs = options_->error || mayMissPairs(config.partitioner);
     // Here nothing is gained by a fallback: what runs can go on.
-    if (config.resolver == ResolverKind::Cuda && this->config().resolver != ResolverKind::Cuda) {
+    if (needsDevice(config.resolver) && !needsDevice(this->config().resolver)) {
         const CudaDevice device = findCudaDevice();
         if (!device.usable()) throw DeviceError("cuda: " + device.reason);
     }

@@ -34,16 +34,23 @@ void requireCountable(std::uint64_t entries) {
 
 }  // namespace
 
-template <class Real>
-StaticGridPartitioner<Real>::StaticGridPartitioner(const StaticGrid& config, const Vec2& worldSize,
-                                                   const ThreadTeam& team)
-    : columns_(cellsAlong(worldSize.x(), config.cellSize.x())),
-      rows_(cellsAlong(worldSize.y(), config.cellSize.y())),
-      team_(team) {
-    const std::uint64_t count = std::uint64_t(columns_) * rows_;
+GridShape gridShape(const StaticGrid& config, const Vec2& worldSize) {
+    const GridShape shape{cellsAlong(worldSize.x(), config.cellSize.x()),
+                          cellsAlong(worldSize.y(), config.cellSize.y())};
+    const std::uint64_t count = std::uint64_t(shape.columns) * shape.rows;
     if (count > std::numeric_limits<std::uint32_t>::max() / 16) {
         throw Error("static grid: the cell size makes " + std::to_string(count) + " cells");
     }
+    return shape;
+}
+
+template <class Real>
+StaticGridPartitioner<Real>::StaticGridPartitioner(const StaticGrid& config, const Vec2& worldSize,
+                                                   const ThreadTeam& team)
+    : columns_(gridShape(config, worldSize).columns),
+      rows_(gridShape(config, worldSize).rows),
+      team_(team) {
+    const std::size_t count = std::size_t(columns_) * rows_;
     this->partition_.grid = makeFineGrid<Real>(-worldSize / 2, config.cellSize, columns_, rows_);
     Cells& cells = this->partition_.cells;
     cells.origin = -worldSize / 2;

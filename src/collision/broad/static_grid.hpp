@@ -8,6 +8,16 @@
 
 namespace quadrille {
 
+/// How many cells a StaticGrid lays along each axis.
+struct GridShape {
+    std::uint32_t columns, rows;
+
+    std::uint32_t cells() const { return columns * rows; }
+};
+
+/// Throws Error if the cell size is impossible.
+GridShape gridShape(const StaticGrid& config, const Vec2& worldSize);
+
 /// Equal cells over the world, filled anew each step by a counting sort. Several threads first sort
 /// the bodies into strips of rows, and then the strips one by one.
 template <class Real>

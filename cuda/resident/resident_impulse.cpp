@@ -1,0 +1,129 @@
+#include "cuda/resident/resident_impulse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <variant>
+
+#include "collision/integrate.hpp"
+#include "cuda/device/range.hpp"
+
+namespace quadrille::cuda {
+
+namespace {
+
+/// The mean extent of moving bodies along the axis on which it is larger, px.
+template <class Real>
+double meanExtent(const BodyView<Real>& bodies) {
+    const auto mean = [&](const ColumnView<Real>& half) {
+        if (half.uniform()) return 2 * static_cast<double>(half.common);
+        double sum = 0;
+        for (const Real value : half.values) sum += static_cast<double>(value);
+        return 2 * sum / static_cast<double>(half.values.size());
+    };
+    return std::max(mean(bodies.moving.halfWidth), mean(bodies.moving.halfHeight));
+}
+
+/// The grid that the configuration names. With another partitioner, cells of twice the mean extent
+/// of a body: so a body touches few, and few bodies that do not overlap fit into one, however
+/// crowded a part of the world is. In a sparse world they are larger, up to a quarter of a body in
+/// each, and along an axis there are no more than a grid can have.
+template <class Real>
+StaticGrid gridFor(const PartitionerConfig& config, const BodyView<Real>& bodies,
+                   const Vec2& worldSize) {
+    if (const auto* grid = std::get_if<StaticGrid>(&config)) return *grid;
+    constexpr double cellsPerBody = 4, fewest = 1024, mostAlongAnAxis = 65'000;
+    const double most = cellsPerBody * static_cast<double>(bodies.moving.size()) + fewest;
+    double side = bodies.moving.size() > 0 ? 2 * meanExtent(bodies) : worldSize.maxCoeff();
+    side = std::max({side, std::sqrt(worldSize.x() * worldSize.y() / most),
+                     worldSize.maxCoeff() / std::min(mostAlongAnAxis, most)});
+    return {{side, side}};
+}
+
+}  // namespace
+
+template <class Real>
+void ResidentImpulse<Real>::load(const BodyView<Real>& bodies, PhaseClock& clock) {
+    bodies_.load(bodies, clock);
+    grid_.lay(gridFor(config_.partitioner, bodies, worldSize_), worldSize_);
+    hostCounts_.reserve(1);
+}
+
+template <class Real>
+ResidentCounts ResidentImpulse<Real>::tryStep(Step<Real>& step) {
+    const DeviceContacts<Real> list = contacts_.begin(true, step.keepContacts);
+    findContacts(device_.launch(), bodies_.bodies(), grid_.cells(), grid_.ownership(),
+                 step.parameters.dt, list);
+    contacts_.resolve(list, step.parameters);
+    finishStep(device_.launch(), list.heads, bodies_.touched(), grid_.entries(), grid_.badRow(),
+               hostCounts_.data(), 2 * contacts_.expected());
+    device_.finish(step.clock);
+    return *hostCounts_.data();
+}
+
+template <class Real>
+void ResidentImpulse<Real>::step(Step<Real>& step) {
+    const Range range("quadrille resident impulse");
+    records_.clear();
+    cellsHere_ = false;
+    device_.begin(Phase::Integrate, step.clock);
+    bodies_.moveOn(step.parameters);
+    device_.end(Phase::Integrate, step.clock);
+    device_.begin(Phase::Partition, step.clock);
+    grid_.sort();
+    device_.end(Phase::Partition, step.clock);
+
+    ResidentCounts counts = tryStep(step);
+    while (counts.badRow == none &&
+           (grid_.lacksRoom(counts.entries) || contacts_.lacksRoom(counts.step))) {
+        if (grid_.lacksRoom(counts.entries)) {
+            grid_.sortAgain(counts.entries);
+        } else {
+            contacts_.makeRoom(counts.step.contacts);
+        }
+        bodies_.zeroCounts();
+        counts = tryStep(step);
+    }
+    contacts_.end(counts.step);
+    if (counts.badRow != none) failNotFinite(bodies_.entityAt(counts.badRow));
+    grid_.expect(counts.entries);
+    step.counts.contacts += counts.step.contacts;
+    step.counts.collisions += counts.step.collisions;
+    step.counts.pairsTested += counts.step.tested;
+    if (step.keepContacts) contacts_.fetch(counts.step.contacts, step.parameters, records_);
+}
+
+template <class Real>
+const Cells& ResidentImpulse<Real>::cells() {
+    if (!cellsHere_) grid_.fetch(cells_);
+    cellsHere_ = true;
+    return cells_;
+}
+
+template <class Real>
+std::size_t ResidentImpulse<Real>::bytes() const {
+    return device_.memoryUsed() + bodies_.hostBytes() + hostCounts_.bytes() +
+           records_.capacity() * sizeof(ContactRecord);
+}
+
+template class ResidentImpulse<double>;
+template class ResidentImpulse<float>;
+
+}  // namespace quadrille::cuda
+
+namespace quadrille {
+
+template <class Real>
+std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse(const SimulationConfig& config,
+                                                            const Vec2& worldSize,
+                                                            const ThreadTeam& team) {
+    return std::make_unique<cuda::ResidentImpulse<Real>>(config, worldSize, team);
+}
+
+#define QUADRILLE_INSTANTIATE(Real)                                       \
+    template std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse( \
+        const SimulationConfig&, const Vec2&, const ThreadTeam&);
+QUADRILLE_INSTANTIATE(double)
+QUADRILLE_INSTANTIATE(float)
+
+}  // namespace quadrille

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "cuda/bodies/device_bodies.hpp"
+#include "cuda/broad/device_grid.hpp"
+#include "cuda/device/device_session.hpp"
+#include "cuda/discrete/impulse_contacts.hpp"
+#include "cuda/resident/resident_kernels.hpp"
+#include "cuda/resident_pipeline.hpp"
+
+namespace quadrille::cuda {
+
+/// The law `impulse` with everything on the device, bit for bit that of SequentialImpulse.
+template <class Real>
+class ResidentImpulse final : public ResidentPipeline<Real> {
+  public:
+    ResidentImpulse(const SimulationConfig& config, const Vec2& worldSize, const ThreadTeam& team)
+        : config_(config), worldSize_(worldSize), device_(config.cuda, team) {}
+
+    void load(const BodyView<Real>& bodies, PhaseClock& clock) override;
+    void step(Step<Real>& step) override;
+    void fetch(const MutableBodyView<Real>& bodies) override { bodies_.fetch(bodies); }
+
+    const Cells& cells() override;
+    std::span<const ContactRecord> contacts() override { return records_; }
+    std::size_t bytes() const override;
+
+  private:
+    ResidentCounts tryStep(Step<Real>& step);
+
+    SimulationConfig config_;
+    Vec2 worldSize_;
+    DeviceSession device_;
+    DeviceBodies<Real> bodies_{device_};
+    DeviceGrid<Real> grid_{device_, bodies_};
+    ImpulseContacts<Real> contacts_{device_, bodies_};
+    PinnedArray<ResidentCounts> hostCounts_;
+    std::vector<ContactRecord> records_;
+    Cells cells_;
+    bool cellsHere_ = true;  // as of the last step
+};
+
+}  // namespace quadrille::cuda
