@@ -15,6 +15,7 @@
 #include <quadrille/state_hash.hpp>
 
 #include "collision/random_scene.hpp"
+#include "collision/support.hpp"
 #include "core/step_times.hpp"
 #include "core/world_access.hpp"
 #include "engines/fallback.hpp"
@@ -275,6 +276,23 @@ TEST_F(ResidentEngineTest, StepsThatAreAuditedAreTheHosts) {
     EXPECT_GT(audited, 1);
     EXPECT_LT(device.steps, 30);
     EXPECT_GT(device.steps, 1);
+}
+
+TEST_F(ResidentEngineTest, StepsAmongStaticBodiesAreTheHosts) {
+    Stepped host{hostEngine()};
+    Stepped resident{residentEngine()};
+    Entity wall;
+    for (int i = 0; i < 30; ++i) {
+        for (Stepped* run : {&host, &resident}) {
+            if (i == 10) wall = makeBox(run->world, {0, 0}, fixed(), {20, 20});
+            if (i == 20) run->world.destroy(wall);
+            run->world.flush();
+            run->step();
+        }
+        EXPECT_EQ(resident.engine->contacts().size(), host.engine->contacts().size());
+    }
+    EXPECT_EQ(stateHash(resident.world), stateHash(host.world));
+    EXPECT_EQ(device.steps, 20);
 }
 
 /// Simulation::resumeAt counts on from another number.

@@ -137,7 +137,6 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ResidentRandomScenes, testing::ValuesIn(sceneKin
 
 World someBoxes(int count, bool own = false) {
     World world({.size = {300, 300}});
-    world.addWalls({.thickness = 20});
     Random random(3);
     for (int i = 0; i < count; ++i) {
         const Vec2 size = own ? Vec2(random.uniform(1, 9), random.uniform(1, 9)) : Vec2(4, 4);
@@ -161,7 +160,6 @@ TEST(Resident, MakesRoomAndLosesNothing) {
                 {3, 3});
         }
         makeBox(world, {0, 0}, moving(3, 2, 50), {250, 250});
-        world.addWalls({.thickness = 40});
         return world;
     };
     for (const PartitionerConfig& cells :
