@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <quadrille/config.hpp>
 #include <quadrille/simulation.hpp>
@@ -13,6 +14,11 @@
 namespace quadrille {
 
 struct SceneOptions {
+    /// Each "key=value" replaces what the file says, or adds to it, before anything of it is read:
+    /// "step.restitution=0.5", "spawn.0.count=1000" (lists count from 0). The value is TOML, or
+    /// text without quotes: "step.law=impulse". Later ones go before earlier ones. Errors are those
+    /// of the file, with "--set" in place of file, line and column.
+    std::vector<std::string> set = {};
     std::optional<std::uint64_t> entities = {};  ///< replaces the count of the first spawn group
     std::optional<std::uint64_t> seed = {};      ///< replaces the scene's
     bool renderers = false;                      ///< give the bodies a RectangleRenderer

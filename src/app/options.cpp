@@ -114,6 +114,11 @@ const CLI::Validator blockSize(
 const CLI::Validator fileName(
     [](std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
 
+std::string keyAndValue(const std::string& text) {
+    if (text.find('=') != std::string::npos) return {};
+    return "'" + text + "' is not KEY=VALUE";
+}
+
 PartitionerConfig makePartitionerConfig(const RawOptions& raw) {
     // Wrong values are refused whether or not the partitioner that was chosen has use for them.
     const Vec2 cellSize = parseCellSize(raw.cellSize);
@@ -147,6 +152,13 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
                       ->type_name("NAME|FILE")
                       ->capture_default_str()
                       ->group("Scene");
+    auto* set = app.add_option("--set", options.set,
+                               "Put a value in place of the scene's: step.restitution=0.5, "
+                               "spawn.0.count=1000; may be given often")
+                    ->check(CLI::Validator(keyAndValue, ""))
+                    ->allow_extra_args(false)
+                    ->type_name("KEY=VALUE")
+                    ->group("Scene");
     auto* entities = app.add_option("--entities", options.entities,
                                     "Count of the scene's first spawn group (the scene's)")
                          ->check(wholeNumber)
@@ -161,6 +173,7 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("FILE")
         ->group("Scene")
         ->excludes(scene)
+        ->excludes(set)
         ->excludes(entities)
         ->excludes(seed);
     app.add_option("--dt", options.dt, "Length of a step in s (the scene's)")

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <quadrille/config.hpp>
 
@@ -20,6 +21,7 @@ class UsageError : public std::runtime_error {
 /// The command line, checked.
 struct Options {
     std::string scene = "balanced";
+    std::vector<std::string> set;  ///< what SceneOptions::set takes
     std::optional<std::uint64_t> entities;
     std::optional<std::uint64_t> seed;
 

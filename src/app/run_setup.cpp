@@ -48,7 +48,8 @@ Start loadStart(const Options& options) {
     }
     const std::filesystem::path file = findScene(options.scene);
     Scene scene =
-        loadScene(file, {.entities = options.entities,
+        loadScene(file, {.set = options.set,
+                         .entities = options.entities,
                          .seed = options.seed,
                          .renderers = !options.headless,
                          .announce = [&](std::uint64_t movingBodies, std::optional<Law> law) {

@@ -10,6 +10,7 @@
 #include <quadrille/scene.hpp>
 
 #include "core/instances.hpp"
+#include "core/scene_settings.hpp"
 #include "core/scene_table.hpp"
 #include "core/scene_text.hpp"
 #include "core/spawn.hpp"
@@ -167,17 +168,10 @@ void readInstance(SceneTable table, const std::filesystem::path& folder, const A
     scene.instances.push_back({readInstances(folder / file, defaults, announceRows), color});
 }
 
-SceneDescription readDescription(const std::filesystem::path& path, const Announce& announce) {
+SceneDescription readDescription(const std::filesystem::path& path, const SceneOptions& options) {
     const std::string file = path.string();
-    const std::string text = readSceneText(path);
-    toml::table document;
-    try {
-        document = toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-        const auto& where = error.source().begin;
-        throw SceneError(file + ":" + std::to_string(where.line) + ":" +
-                         std::to_string(where.column) + ": " + std::string(error.description()));
-    }
+    toml::table document = parseScene(readSceneText(path), file);
+    applySettings(options.set, document);
     SceneTable root(document, file, "");
     SceneDescription scene;
     root.require("format", root.integer("format", 1, 1));
@@ -189,7 +183,7 @@ SceneDescription readDescription(const std::filesystem::path& path, const Announ
     for (auto& table : root.tables("spawn")) readSpawn(table, scene);
     for (auto& table : root.tables("body")) readBody(table, scene);
     for (auto& table : root.tables("instance")) {
-        readInstance(table, path.parent_path(), announce, scene);
+        readInstance(table, path.parent_path(), options.announce, scene);
     }
     root.finish();
     return scene;
@@ -198,7 +192,7 @@ SceneDescription readDescription(const std::filesystem::path& path, const Announ
 }  // namespace
 
 Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) {
-    SceneDescription description = readDescription(file, options.announce);
+    SceneDescription description = readDescription(file, options);
     const auto fail = [&](const std::string& reason) {
         throw SceneError(file.string() + ": " + reason);
     };

@@ -7,6 +7,8 @@
 
 #include <quadrille/error.hpp>
 
+#include "core/scene_settings.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -39,7 +41,19 @@ std::optional<Color> parseColor(std::string_view text) {
                  static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
 }
 
+std::string placeOf(const toml::source_region& where, const std::string& file) {
+    return file + ":" + std::to_string(where.begin.line) + ":" + std::to_string(where.begin.column);
+}
+
 }  // namespace
+
+toml::table parseScene(const std::string& text, const std::string& file) {
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw SceneError(placeOf(error.source(), file) + ": " + std::string(error.description()));
+    }
+}
 
 SceneTable::SceneTable(const toml::table& table, std::string file, std::string path)
     : table_(&table), file_(std::move(file)), path_(std::move(path)) {}
@@ -50,11 +64,11 @@ const toml::node* SceneTable::find(std::string_view key) {
 }
 
 void SceneTable::fail(std::string_view key, const std::string& reason) const {
-    const toml::node* node = table_->get(key);
-    const toml::source_region& where = node != nullptr ? node->source() : table_->source();
-    throw SceneError(file_ + ":" + std::to_string(where.begin.line) + ":" +
-                     std::to_string(where.begin.column) + ": " + path_ + std::string(key) + ": " +
-                     reason);
+    const toml::node* value = table_->get(key);
+    const toml::node& guilty = value != nullptr ? *value : *table_;
+    const std::string where =
+        isSetting(guilty) ? std::string(settingSource) : placeOf(guilty.source(), file_);
+    throw SceneError(where + ": " + path_ + std::string(key) + ": " + reason);
 }
 
 std::optional<double> SceneTable::number(std::string_view key) {

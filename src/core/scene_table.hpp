@@ -12,8 +12,12 @@
 
 namespace quadrille {
 
-/// Reads one table of a scene file. Every failure is a SceneError "file:line:column: key: reason";
-/// keys that nobody asked for are errors too.
+/// Parses text that `checkSceneText` has seen. Throws SceneError, naming file, line and column.
+toml::table parseScene(const std::string& text, const std::string& file);
+
+/// Reads one table of a scene. Every failure is a SceneError "file:line:column: key: reason", or
+/// "--set: key: reason" where a setting has put the value there; keys that nobody asked for are
+/// errors too.
 class SceneTable {
   public:
     /// `path` is what error messages put before a key, such as "world."; empty for the root.

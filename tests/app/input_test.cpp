@@ -53,6 +53,32 @@ TEST_F(Input, WrongTypeIsLocated) {
     expectBadScene(scene, {scene + ":3:", "world.size"});
 }
 
+TEST_F(Input, SettingsGoBeforeTheScene) {
+    const Json summary = summaryOf({"--scene", "balanced", "--set", "spawn.0.count=50", "--set",
+                                    "step.restitution=0.5", "--set", "step.law=\"impulse\"",
+                                    "--set", "world.size=[400, 300]", "--frames", "1"});
+    EXPECT_EQ(summary["entities"], 50);
+    EXPECT_EQ(summary["restitution"], 0.5);
+    EXPECT_EQ(summary["law"], "impulse");
+    // Options of their own go before them.
+    const Json options =
+        summaryOf({"--set", "spawn.0.count=50", "--set", "step.dt=0.5", "--set", "seed=3",
+                   "--entities", "60", "--dt", "0.25", "--seed", "4", "--frames", "0"});
+    EXPECT_EQ(options["entities"], 60);
+    EXPECT_EQ(options["dt"], 0.25);
+    EXPECT_EQ(options["seed"], 4);
+}
+
+TEST_F(Input, WrongSettingIsNamed) {
+    const Arguments run = {"--headless", "--frames", "1", "--set"};
+    expectRefusal(run + Arguments{"step.restitution=2"}, 3,
+                  {"--set: step.restitution: must be from 0 to 1"});
+    expectRefusal(run + Arguments{"spawn.0.colour=#fff"}, 3,
+                  {"--set: spawn[0].colour: is not a known key; known here: "});
+    expectRefusal(run + Arguments{"spawn.0.count=many"}, 3,
+                  {"--set: spawn[0].count: must be an integer"});
+}
+
 TEST_F(Input, SyntaxErrorIsLocated) {
     const std::string scene = write("bad.toml", "format = 1\n[world\n");
     expectBadScene(scene, {scene + ":2:"});

@@ -80,9 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"--partitioner", "quadtree", "--rebuild", "never"}, Arguments{"--duration", "0"},
         Arguments{"--duration", "-1"}, Arguments{"--duration", "nan"},
         Arguments{"--report-every", "0"}, Arguments{"--report-every", "nan"},
-        Arguments{"--json", ""}, Arguments{"--save", ""}, Arguments{"--save", "-"},
-        Arguments{"--screenshot", ""}, Arguments{"--screenshot", "-"}, Arguments{"--size", "640"},
-        Arguments{"--size", "640x"}, Arguments{"--size", "0x480"}, Arguments{"--size", "640x480x2"},
+        Arguments{"--set", "dt"}, Arguments{"--set", ""}, Arguments{"--json", ""},
+        Arguments{"--save", ""}, Arguments{"--save", "-"}, Arguments{"--screenshot", ""},
+        Arguments{"--screenshot", "-"}, Arguments{"--size", "640"}, Arguments{"--size", "640x"},
+        Arguments{"--size", "0x480"}, Arguments{"--size", "640x480x2"},
         Arguments{"--size", "640;480"}, Arguments{"--size", "9e3x480"}, Arguments{"--speed", "0"},
         Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"}, Arguments{"--speed", "fast"},
         Arguments{"--show", "cells"}, Arguments{"--show", "gridlines,cells"},
@@ -111,11 +112,11 @@ INSTANTIATE_TEST_SUITE_P(Usage, ImpossibleCount,
 
 TEST(Usage, MissingValues) {
     for (const char* option :
-         {"--scene",        "--seed",      "--partitioner", "--cell-size",   "--max-depth",
-          "--max-per-cell", "--rebuild",   "--resolver",    "--threads",     "--law",
-          "--precision",    "--dt",        "--restitution", "--duration",    "--report-every",
-          "--json",         "--csv",       "--dump-state",  "--dump-events", "--save",
-          "--load",         "--screenshot"}) {
+         {"--scene",        "--set",          "--seed",      "--partitioner", "--cell-size",
+          "--max-depth",    "--max-per-cell", "--rebuild",   "--resolver",    "--threads",
+          "--law",          "--precision",    "--dt",        "--restitution", "--duration",
+          "--report-every", "--json",         "--csv",       "--dump-state",  "--dump-events",
+          "--save",         "--load",         "--screenshot"}) {
         expectUsageError({option}, {option});
     }
     expectRefusal({"--headless", "--frames"}, 2, {"--frames"});
@@ -131,6 +132,7 @@ TEST(Usage, SnapshotExcludesWhatMakesAScene) {
     expectRefusal(load + Arguments{"--scene", "pile"}, 2, {"--load", "--scene"});
     expectRefusal(load + Arguments{"--entities", "5"}, 2, {"--load", "--entities"});
     expectRefusal(load + Arguments{"--seed", "5"}, 2, {"--load", "--seed"});
+    expectRefusal(load + Arguments{"--set", "step.dt=1"}, 2, {"--load", "--set"});
 }
 
 TEST(Usage, OneOutputOnStdout) {

@@ -128,6 +128,7 @@ void Workbench::open(const std::string& sceneFile) {
     options.scene = sceneFile;
     options.load.clear();
     // What the command line says of the first scene does not hold for this one.
+    options.set.clear();
     options.entities.reset();
     options.seed.reset();
     options.dt.reset();
