@@ -148,10 +148,11 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
                          std::string("collisionStress ") + version + " (" + commit() + ")");
     app.get_formatter()->column_width(38);
 
-    auto* scene = app.add_option("--scene", options.scene, "A name in scenes/ or a scene file")
-                      ->type_name("NAME|FILE")
-                      ->capture_default_str()
-                      ->group("Scene");
+    auto* scene =
+        app.add_option("scene,--scene", options.scene, "A name in scenes/ or a scene file")
+            ->type_name("NAME|FILE")
+            ->capture_default_str()
+            ->group("Scene");
     auto* set = app.add_option("--set", options.set,
                                "Put a value in place of the scene's: step.restitution=0.5, "
                                "spawn.0.count=1000; may be given often")

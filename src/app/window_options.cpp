@@ -85,6 +85,7 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
            },
            "gridlines, heat-map, contacts, or several of them")
         ->delimiter(',')
+        ->allow_extra_args(false)  // a scene may follow
         ->check(CLI::IsMember({"gridlines", "heat-map", "contacts"}))
         ->type_name("WHAT,...")
         ->group(group);

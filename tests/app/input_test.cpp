@@ -53,6 +53,14 @@ TEST_F(Input, WrongTypeIsLocated) {
     expectBadScene(scene, {scene + ":3:", "world.size"});
 }
 
+TEST_F(Input, SceneNeedsNoOption) {
+    EXPECT_EQ(summaryOf({"cradle", "--frames", "1"})["scene"], "cradle");
+    EXPECT_EQ(summaryOf({"--frames", "1", "--set", "seed=3", "pile"})["scene"], "pile");
+    EXPECT_EQ(summaryOf({"--frames", "1", "--show", "gridlines", "pile"})["scene"], "pile");
+    const std::string scene = write("own.toml", "format = 1\n[world]\nsize = [9, 9]\n");
+    EXPECT_EQ(summaryOf({scene, "--frames", "1"})["scene"], "own");
+}
+
 TEST_F(Input, SettingsGoBeforeTheScene) {
     const Json summary = summaryOf({"--scene", "balanced", "--set", "spawn.0.count=50", "--set",
                                     "step.restitution=0.5", "--set", "step.law=\"impulse\"",

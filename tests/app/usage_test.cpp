@@ -16,7 +16,12 @@ void expectUsageError(const Arguments& arguments, const std::vector<std::string>
 
 TEST(Usage, UnknownOption) { expectUsageError({"--frobnicate"}, {"--frobnicate"}); }
 
-TEST(Usage, StrayArgument) { expectUsageError({"balanced"}, {"balanced"}); }
+TEST(Usage, OneScene) {
+    expectUsageError({"balanced", "pile"}, {"pile"});
+    expectUsageError({"--scene", "balanced", "pile"}, {"pile"});
+    expectUsageError({"balancd"}, {"balancd", "balanced-scaled", "pile"});
+    expectUsageError({"pile", "--load", "run.snapshot"}, {"--load", "scene"});
+}
 
 TEST(Usage, UnknownPartitionerListsTheValidOnes) {
     expectUsageError({"--partitioner", "octree"},
