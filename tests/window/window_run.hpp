@@ -7,6 +7,13 @@
 
 namespace quadrille {
 
+/// What a box of this colour shows inside of its outline, before the background.
+constexpr Rgb fillOf(const Rgb& color) {
+    constexpr Rgb background{13, 16, 20};
+    const auto mix = [](int from, int to) { return int(from + 0.45 * (to - from) + 0.5); };
+    return {mix(background.r, color.r), mix(background.g, color.g), mix(background.b, color.b)};
+}
+
 /// Tests of the program in a window on a screen of their own, 1280 x 720 points, which the window
 /// fills. They wait for what they expect and never for a time.
 class WindowTest : public ProgramTest {

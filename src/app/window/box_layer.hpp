@@ -17,6 +17,7 @@ namespace quadrille::app {
 ///
 /// Positions are streamed in every frame, relative to the camera's centre and as float: a scene far
 /// from the origin is drawn as finely as any. Sizes are sent again only where the rows changed.
+/// From 6 pixels on boxes are outlined, and marked where a moving one overlaps another.
 class BoxLayer {
   public:
     BoxLayer();
@@ -30,15 +31,30 @@ class BoxLayer {
     /// One colour a body: the static ones, then the moving ones; alpha 0 hides a body.
     void setColors(std::span<const Color> colors);
 
-    /// `opacity` below 1 lets what was drawn before shine through.
+    /// `opacity` below 1 lets more of what was drawn before shine through; outlines stay.
     void draw(const Viewport& viewport, double opacity) const;
 
   private:
-    GlProgram program_;
-    GLint scale_, pixels_, opacity_;
+    struct Program {
+        GlProgram program;
+        GLint scale, pixels, leastSide, first;
+
+        explicit Program(const char* fragments);
+        /// Of boxes that have at least so many pixels a side.
+        void use(const Viewport& viewport, double least) const;
+    };
+
+    void drawBoxes(std::size_t count) const;
+    void markOverlaps(const Viewport& viewport) const;
+
+    Program boxes_;
+    GLint opacity_, outline_;
+    Program count_;
+    GlProgram mark_;
     GlVertexArray array_;
     GlBuffer x_, y_, halfSize_, color_;
-    std::size_t count_ = 0;
+    std::size_t bodies_ = 0, fixed_ = 0;
+    double largestSide_ = 0;  // px, of what moves: the shorter side of the box with the longest
     std::uint64_t revision_ = ~std::uint64_t(0);
     bool rowsChanged_ = false;
 };
