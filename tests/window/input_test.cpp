@@ -131,6 +131,22 @@ TEST_F(WindowInput, HelpOpensAndCloses) {
     close();
 }
 
+TEST_F(WindowInput, EscClosesTheInnermostThingFirst) {
+    startPaused(write("still.toml", stillScene));
+    const Place body = place(60, 30);
+    const int x = width / 2 - 40, y = height / 2 + 100;
+    screen_->click(body.x, body.y);
+    ASSERT_TRUE(entityWindow(true));
+    screen_->press("F1");
+    ASSERT_TRUE(eventually([&] { return !near(screen_->pixel(x, y), background); }));
+    screen_->press("Escape");
+    EXPECT_TRUE(shows(x, y, background));
+    EXPECT_TRUE(entityWindow(true));
+    screen_->press("Escape");
+    EXPECT_TRUE(entityWindow(false));
+    close();
+}
+
 TEST_F(WindowInput, TheScreenshotKeyWritesAFile) {
     startPaused(write("still.toml", stillScene));
     screen_->press("period");

@@ -51,6 +51,18 @@ bool chooseKind(const char* label, Kind& kind, std::span<const Named<Kind>> all)
     return true;
 }
 
+/// What the law is good for.
+void showMeaning(Law law) {
+    for (const Named<Law>& named : laws()) {
+        if (named.kind != law) continue;
+        ImGui::PushTextWrapPos();
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextUnformatted(named.about.data(), named.about.data() + named.about.size());
+        ImGui::PopStyleColor();
+        ImGui::PopTextWrapPos();
+    }
+}
+
 bool dragInt(const char* label, int& value, float perPixel, int least, int most) {
     return ImGui::DragInt(label, &value, perPixel, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
 }
@@ -143,6 +155,7 @@ void showCollisionsPanel(const PanelContext& context) {
         changed = editParameters(next.partitioner);
     }
     changed = chooseKind("contact law", next.law, laws()) || changed;
+    showMeaning(next.law);
     changed = chooseKind("resolver", next.resolver, resolvers()) || changed;
     if (changed) context.bench.reconfigure(std::move(next));
 }

@@ -44,10 +44,13 @@ constexpr KeyCommand commands[] = {
     {SDLK_v, false, "V", "colour by entity, speed, cell",
      [](B, V v) { v.colorBy = static_cast<ColorBy>((static_cast<int>(v.colorBy) + 1) % 3); }},
     {SDLK_f, false, "F", "follow the selected entity", [](B b, V) { b.toggleFollow(); }},
-    {SDLK_ESCAPE, false, "Esc", "select nothing, close help",
+    {SDLK_ESCAPE, false, "Esc", "close help, then select nothing",
      [](B b, V v) {
-         b.select(std::nullopt);
-         v.help = false;
+         if (v.help) {
+             v.help = false;
+         } else {
+             b.select(std::nullopt);
+         }
      }},
     {SDLK_HOME, false, "Home  0", "show all", [](B, V v) { v.fit = true; }},
     {SDLK_0, false, nullptr, "", [](B, V v) { v.fit = true; }},

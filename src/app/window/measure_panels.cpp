@@ -31,6 +31,13 @@ ImU32 phaseColor(std::size_t phase) {
     return alpha | colors[phase % colors.size()];
 }
 
+/// The name of a phase as a text has it: "copy to device".
+std::string phaseWords(std::size_t phase) {
+    std::string words(phaseName(phase));
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
 constexpr std::size_t presentRow = PhaseHistory::rows - 1;
 
 /// An empty rectangle as wide as the column, for a plot.
@@ -76,7 +83,9 @@ void showCountersPanel(const PanelContext& context) {
     row("cells", grouped(m.load.cells) + ", " + grouped(m.load.activeCells) + " in use");
     row("bodies per cell",
         formatted("%.1f mean, ", m.load.meanBodies) + grouped(m.load.maxBodies) + " max");
-    row("contacts", grouped(last.contacts) + " of " + grouped(last.pairsTested) + " pairs");
+    // The law 'continuous' tests pairs only where it searches anew, which is not in every step.
+    row("contacts", grouped(last.contacts));
+    row("pairs tested", grouped(last.pairsTested));
     row("energy drift", formatted("%.2g", m.energyDrift));
     row("missed pairs", config.countMissedPairs ? grouped(session.statistics().missedPairs())
                                                 : std::string("not measured"));
@@ -119,6 +128,7 @@ void showFrameTimePanel(const PanelContext& context) {
                         formatted("%g ms", double(top)).c_str());
     if (ImGui::BeginTable("phases", 2)) {
         for (std::size_t k = 0; k < PhaseHistory::rows; ++k) {
+            if (k < phaseCount && mean[k] == 0) continue;  // as copies where there is no device
             ImGui::TableNextColumn();
             const ImVec2 at = ImGui::GetCursorScreenPos();
             const float side = ImGui::GetFontSize() * 0.6f;
@@ -128,7 +138,7 @@ void showFrameTimePanel(const PanelContext& context) {
                     {at.x, at.y + drop}, {at.x + side, at.y + drop + side}, phaseColor(k));
             }
             ImGui::SetCursorScreenPos({at.x + side + 5, at.y});
-            ImGui::TextDisabled("%s", std::string(phaseName(k)).c_str());
+            ImGui::TextDisabled("%s", phaseWords(k).c_str());
             const std::string value = formatted("%.2f", double(mean[k]));
             ImGui::SameLine(0, 0);
             const float room = ImGui::GetContentRegionAvail().x;
