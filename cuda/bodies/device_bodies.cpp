@@ -93,7 +93,7 @@ void DeviceBodies<Real>::fetch(const MutableBodyView<Real>& bodies) const {
 
 template <class Real>
 void DeviceBodies<Real>::beginStep(const LawBodies<Real>& bodies, Step<Real>& step) {
-    const bool kept = valid_ && !bodies.edited && revision_ == bodies.revision &&
+    const bool kept = valid_ && bodies.edits == Edits::None && revision_ == bodies.revision &&
                       movingCount_ == bodies.moving.size();
     valid_ = false;  // until the step has succeeded
     movingCount_ = 0;

@@ -29,6 +29,8 @@ struct BodyView {
     } fixed;
     /// Changes whenever rows were added, removed or edited from outside the simulation.
     std::uint64_t revision = 0;
+    /// Changes with the revision unless only positions and velocities of moving bodies were edited.
+    std::uint64_t layout = 0;
 
     std::size_t size() const { return moving.size() + fixed.size(); }
 };
@@ -45,6 +47,7 @@ struct MutableBodyView {
     } moving;
     typename BodyView<Real>::Static fixed;
     std::uint64_t revision = 0;
+    std::uint64_t layout = 0;
 
     std::size_t size() const { return moving.size() + fixed.size(); }
 
@@ -60,7 +63,8 @@ struct MutableBodyView {
                            .entity = m.entity,
                            .created = m.created},
                 .fixed = fixed,
-                .revision = revision};
+                .revision = revision,
+                .layout = layout};
     }
 };
 

@@ -15,14 +15,20 @@ struct KeptColumns {
     bool rests = false;
 };
 
+/// What was edited since a law advanced the bodies last.
+enum class Edits : std::uint8_t {
+    None,
+    Everything,  ///< rows, sizes, masses, static bodies or the physics, or all that is below
+    Values,      ///< positions and velocities of moving bodies, and nothing else
+};
+
 /// The bodies as a law advances them: positions, velocities and the columns that it asked for can
 /// be written, and nobody counts that as an edit.
 template <class Real>
 struct LawBodies : MutableBodyView<Real> {
     std::span<Anchor<Real>> anchors;  ///< one a moving row, or empty
     std::span<std::uint8_t> rests;    ///< the same
-    /// Since a law advanced them last, rows were added, removed or edited.
-    bool edited = false;
+    Edits edits = Edits::None;
     /// Positions and velocities are those of the start of the step; else, of an earlier time, and
     /// the anchors say what they are.
     bool placed = true;

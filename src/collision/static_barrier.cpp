@@ -25,9 +25,9 @@ Box<Real> swept(const Box<Real>& body, const Place<Real>& from, const Place<Real
 
 template <class Real>
 void StaticBarrier<Real>::update(const LawBodies<Real>& bodies) {
-    if (made_ && !bodies.edited && revision_ == bodies.revision) return;
+    if (made_ && layout_ == bodies.layout) return;
     map_.update(bodies.read());
-    revision_ = bodies.revision;
+    layout_ = bodies.layout;
     made_ = true;
 }
 

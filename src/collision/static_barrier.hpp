@@ -52,7 +52,7 @@ class StaticBarrier {
     Place<Real> pushedOut(const Box<Real>& body, const Place<Real>& at) const;
 
     StaticMap<Real> map_;
-    std::uint64_t revision_ = 0;
+    std::uint64_t layout_ = 0;  // of the bodies that the map is of
     bool made_ = false;
 };
 

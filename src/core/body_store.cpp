@@ -81,7 +81,8 @@ void BodyMirror::bringHome() {
 BodyStore::BodyStore(BodyStore&& other)
     : columns_((other.bringNewest(), std::exchange(other.columns_, {}))),
       revision_(other.revision_),
-      advanced_(other.advanced_),
+      layout_(other.layout_),
+      edits_(other.edits_),
       physics_(other.physics_) {
     other.countEdit();
 }
@@ -118,7 +119,8 @@ BodyView<Real> BodyStore::read() const {
                       .halfHeight = f.halfHeight.view(),
                       .entity = f.entity.view(),
                       .created = f.created.view()},
-            .revision = revision_};
+            .revision = revision_,
+            .layout = layout_};
 }
 
 template <class Real>
@@ -135,21 +137,22 @@ MutableBodyView<Real> BodyStore::mutableView() {
                        .entity = all.moving.entity,
                        .created = all.moving.created},
             .fixed = all.fixed,
-            .revision = revision_};
+            .revision = revision_,
+            .layout = layout_};
 }
 
 template <class Real>
 LawBodies<Real> BodyStore::advance(KeptColumns kept, const Physics& physics) {
-    const bool wasEdited = edited() || physics != physics_;
+    const Edits edits = physics == physics_ ? edits_ : Edits::Everything;
     std::optional<double> later;
-    if (kept.anchors && !wasEdited) later = std::exchange(placedLater_, {});
+    if (kept.anchors && edits == Edits::None) later = std::exchange(placedLater_, {});
     bringNewest();
     auto& m = of<Real>().moving;
     m.anchors.keep(kept.anchors, m.size());
     m.rests.keep(kept.rests, m.size());
-    advanced_ = revision_;
+    edits_ = Edits::None;
     physics_ = physics;
-    return {mutableView<Real>(), m.anchors.view(), m.rests.view(), wasEdited, !later};
+    return {mutableView<Real>(), m.anchors.view(), m.rests.view(), edits, !later};
 }
 
 /// Puts the bodies where their anchors say that they are at a time.
@@ -183,7 +186,7 @@ void BodyStore::advancedBy(BodyMirror& mirror, const Physics& physics) {
             m.rests.keep(false, m.size());
         },
         columns_);
-    advanced_ = revision_;
+    edits_ = Edits::None;
     physics_ = physics;
     placedLater_.reset();
     newestIs(&mirror);
@@ -248,9 +251,9 @@ void BodyStore::permute(std::span<const std::uint32_t> moving,
         },
         columns_);
     // Rows have moved, but nothing has happened to the bodies.
-    const bool wasEdited = edited();
+    const Edits edits = edits_;
     countEdit();
-    if (!wasEdited) advanced_ = revision_;
+    edits_ = edits;
 }
 
 void BodyStore::reserve(std::size_t moving) {
@@ -316,7 +319,7 @@ void BodyStore::setPosition(BodyRef body, const Vec2& position) {
             body.isStatic() ? set(columns.fixed) : set(columns.moving);
         },
         columns_);
-    countEdit();
+    body.isStatic() ? countEdit() : countValueEdit();
 }
 
 void BodyStore::setHalfSize(BodyRef body, const Vec2& halfSize) {
@@ -337,17 +340,19 @@ void BodyStore::setHalfSize(BodyRef body, const Vec2& halfSize) {
 
 void BodyStore::setVelocityAndMass(std::uint32_t row, const Vec2& velocity, double mass) {
     bringNewest();
-    std::visit(
+    const bool sameMass = std::visit(
         [&]<class Real>(Columns<Real>& columns) {
             const auto vx = toReal<Real>(velocity.x(), {"velocity"});
             const auto vy = toReal<Real>(velocity.y(), {"velocity"});
             const auto massOfBody = toReal<Real>(mass, {"mass", true});
             columns.moving.vx.set(row, vx);
             columns.moving.vy.set(row, vy);
+            if (columns.moving.mass[row] == massOfBody) return true;
             columns.moving.mass.set(row, massOfBody);
+            return false;
         },
         columns_);
-    countEdit();
+    sameMass ? countValueEdit() : countEdit();
 }
 
 void BodyStore::setStaticMass(std::uint32_t row, double mass) {

@@ -128,7 +128,7 @@ class BodyStore {
     class Edit {
       public:
         explicit Edit(BodyStore& store) : store_(store), view_(store.mutableView<Real>()) {}
-        ~Edit() { store_.countEdit(); }
+        ~Edit() { store_.countValueEdit(); }
         Edit(const Edit&) = delete;
         Edit& operator=(const Edit&) = delete;
 
@@ -184,6 +184,8 @@ class BodyStore {
 
     /// Another one after each edit, and never that of another store.
     std::uint64_t revision() const { return revision_; }
+    /// The same, but for edits of positions and velocities of moving bodies.
+    std::uint64_t layout() const { return layout_; }
 
     // ---- rows
 
@@ -233,16 +235,16 @@ class BodyStore {
         bringNewest();
         return columns_;
     }
-    /// Whether there were edits since a law advanced the bodies last.
-    bool edited() const { return revision_ != advanced_; }
+    /// What was edited since a law advanced the bodies last.
+    Edits edits() const { return edits_; }
     /// Under which a law advanced them last.
     const Physics& physics() const { return physics_; }
-    void replace(AnyColumns columns, bool edited, const Physics& physics) {
+    void replace(AnyColumns columns, Edits edits, const Physics& physics) {
         newestIs(nullptr);
         placedLater_.reset();
         columns_ = std::move(columns);
         countEdit();
-        if (!edited) advanced_ = revision_;
+        edits_ = edits;
         physics_ = physics;
     }
 
@@ -281,13 +283,22 @@ class BodyStore {
         if (mirror_ != nullptr) mirror_->newestOf_ = const_cast<BodyStore*>(this);
     }
     void place(double t);
-    void countEdit() { revision_ = nextRevision(); }
+    void countEdit() {
+        layout_ = revision_ = nextRevision();
+        edits_ = Edits::Everything;
+    }
+    /// Positions and velocities of moving bodies, and nothing else.
+    void countValueEdit() {
+        revision_ = nextRevision();
+        if (edits_ == Edits::None) edits_ = Edits::Values;
+    }
     static std::uint64_t nextRevision();
 
     AnyColumns columns_;
     std::uint64_t revision_ = nextRevision();
-    std::uint64_t advanced_ = 0;  // the revision that a law knows
-    Physics physics_;             // that it knows
+    std::uint64_t layout_ = revision_;
+    Edits edits_ = Edits::Everything;  // that no law knows
+    Physics physics_;                  // that the last one knows
     mutable BodyMirror* mirror_ = nullptr;
     mutable std::optional<double> placedLater_;  // s
 };

@@ -187,7 +187,7 @@ void write(SnapshotWriter& out, const World& world) {
             writeSet(out, columns.fixed);
         },
         store.columns());
-    out.number<std::uint8_t>(store.edited());
+    out.number(static_cast<std::uint8_t>(store.edits()));
     writePools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(out, world);
 }
 
@@ -232,8 +232,9 @@ World readWorld(SnapshotReader& in, const Physics& physics) {
             readSet(in, sets.fixed);
         },
         columns);
-    const bool edited = in.number<std::uint8_t>() != 0;
-    WorldAccess::store(world).replace(std::move(columns), edited, physics);
+    const auto edits = in.number<std::uint8_t>();
+    if (edits > static_cast<std::uint8_t>(Edits::Values)) in.fail("has edits of an unknown kind");
+    WorldAccess::store(world).replace(std::move(columns), static_cast<Edits>(edits), physics);
     readPools<Transform, BoxCollider, PhysicsBody, RectangleRenderer, Name>(in, world);
     if (const auto findings = world.validate(); !findings.empty())
         in.fail("is unsound: " + findings[0]);

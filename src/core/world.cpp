@@ -55,7 +55,7 @@ World World::clone() const {
     copy.free_ = free_;
     copy.condemned_ = condemned_;
     copy.alive_ = alive_;
-    copy.store().replace(store().columns(), store().edited(), store().physics());
+    copy.store().replace(store().columns(), store().edits(), store().physics());
     for (const auto& [key, pool] : pools_) copy.pools_.emplace_back(key, pool->clone());
     return copy;
 }
@@ -173,7 +173,7 @@ MutableBodyView<Real> World::mutableBodies() {
     return store().mutableView<Real>();
 }
 
-void World::countEdit() { store().countEdit(); }
+void World::countEdit() { store().countValueEdit(); }
 
 #define QUADRILLE_INSTANTIATE(Real)                \
     template BodyView<Real> World::bodies() const; \

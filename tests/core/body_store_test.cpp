@@ -198,7 +198,7 @@ TEST(BodyMirror, IsAskedByEverybodyWhoNeedsTheStateAndByNobodyElse) {
     EXPECT_EQ(asks([](Store s) { s.mass(BodyRef::moving(1)); }), 0) << "no step changes it";
     EXPECT_EQ(asks([](Store s) { s.reserve(100); }), 0);
     EXPECT_EQ(asks([](Store s) { s.newestIs(nullptr); }), 0);
-    EXPECT_EQ(asks([](Store s) { s.replace(BodyStore::AnyColumns{}, true, {}); }), 0);
+    EXPECT_EQ(asks([](Store s) { s.replace(BodyStore::AnyColumns{}, Edits::Everything, {}); }), 0);
 }
 
 TEST(BodyMirror, OfAStateThatIsNotWantedIsForgotten) {
@@ -208,7 +208,7 @@ TEST(BodyMirror, OfAStateThatIsNotWantedIsForgotten) {
     store.newestIs(nullptr);
     EXPECT_EQ(store.read<double>().moving.x[0], 0.125);
     store.newestIs(&mirror);
-    store.replace(numberedStore().columns(), true, {});
+    store.replace(numberedStore().columns(), Edits::Everything, {});
     EXPECT_EQ(store.read<double>().moving.x[0], 0.125);
     EXPECT_EQ(mirror.fetched, 0);
 }
@@ -249,7 +249,7 @@ TEST(BodyMirror, ThatAdvancesTheBodiesIsNewestAndNoEdit) {
     store.advancedBy(mirror, physics);
     EXPECT_EQ(mirror.fetched, 0) << "an engine that has the bodies needs none";
     EXPECT_EQ(store.revision(), revision);
-    EXPECT_FALSE(store.edited());
+    EXPECT_EQ(store.edits(), Edits::None);
     EXPECT_EQ(store.physics(), physics);
     EXPECT_EQ(store.read<double>().moving.x[0], 77);
     EXPECT_FALSE(std::get<0>(store.columns()).moving.anchors.kept()) << "they would be out of date";
@@ -277,7 +277,7 @@ TEST(BodyStore, HasARevisionThatNoOtherStoreHas) {
     BodyStore one = numberedStore();
     BodyStore two = numberedStore();
     EXPECT_NE(one.revision(), two.revision());
-    one.replace(two.columns(), false, {});
+    one.replace(two.columns(), Edits::None, {});
     EXPECT_NE(one.revision(), two.revision());
 }
 
@@ -292,56 +292,74 @@ TEST(BodyStore, ReadingAndAdvancingAreNoEdits) {
     EXPECT_EQ(store.read<double>().moving.x[0], 3);
 }
 
-TEST(BodyStore, KnowsWhetherItWasEditedSinceALawAdvancedIt) {
+TEST(BodyStore, KnowsWhatWasEditedSinceALawAdvancedIt) {
     BodyStore store = numberedStore();
-    EXPECT_TRUE(store.edited());
-    EXPECT_TRUE(store.advance<double>({}).edited);
-    EXPECT_FALSE(store.edited());
-    EXPECT_FALSE(store.advance<double>({}).edited);
-    const auto expectEdit = [&](const char* what, auto&& action) {
+    EXPECT_EQ(store.edits(), Edits::Everything);
+    EXPECT_EQ(store.advance<double>({}).edits, Edits::Everything);
+    EXPECT_EQ(store.edits(), Edits::None);
+    EXPECT_EQ(store.advance<double>({}).edits, Edits::None);
+    const auto expectEdits = [&](Edits edits, const char* what, auto&& action) {
+        SCOPED_TRACE(what);
         store.advance<double>({});
+        const auto revision = store.revision();
+        const auto layout = store.layout();
         action();
-        EXPECT_TRUE(store.edited()) << what;
-        EXPECT_TRUE(store.advance<double>({}).edited) << what;
+        EXPECT_NE(store.revision(), revision);
+        EXPECT_EQ(store.layout() == layout, edits == Edits::Values);
+        EXPECT_EQ(store.read<double>().layout, store.layout());
+        EXPECT_EQ(store.edits(), edits);
+        EXPECT_EQ(store.advance<double>({}).edits, edits);
     };
-    expectEdit("edit", [&] { store.edit<double>(); });
-    expectEdit("append", [&] { store.append(numbered(6)); });
-    expectEdit("eraseRow",
-               [&] { store.eraseRow(BodyRef::fixed(0), [](std::uint32_t, BodyRef) {}); });
-    expectEdit("erase", [&] {
+    const auto expectAll = [&](const char* what, auto&& action) {
+        expectEdits(Edits::Everything, what, action);
+        expectEdits(Edits::Everything, what, [&] {
+            action();
+            store.edit<double>();
+        });
+    };
+    double mass = 100;
+    expectAll("append", [&] { store.append(numbered(6)); });
+    expectAll("eraseRow",
+              [&] { store.eraseRow(BodyRef::fixed(0), [](std::uint32_t, BodyRef) {}); });
+    expectAll("erase", [&] {
         store.erase([](std::uint32_t e) { return e == 6; }, [](std::uint32_t, BodyRef) {});
     });
-    expectEdit("position", [&] { store.setPosition(BodyRef::fixed(1), {0, 0}); });
-    expectEdit("size", [&] { store.setHalfSize(BodyRef::moving(1), {1, 1}); });
-    expectEdit("velocity", [&] { store.setVelocityAndMass(1, {0, 0}, 1); });
-    expectEdit("mass of a static body", [&] { store.setStaticMass(1, 2); });
-    expectEdit("replace", [&] { store.replace(numberedStore().columns(), true, {}); });
-    store.replace(numberedStore().columns(), false, {});
-    EXPECT_FALSE(store.edited()) << "a run that is resumed goes on as if nothing had happened";
-    const std::uint64_t before = store.revision();
+    expectAll("static position", [&] { store.setPosition(BodyRef::fixed(1), {0, 0}); });
+    expectAll("size", [&] { store.setHalfSize(BodyRef::moving(1), {1, 1}); });
+    expectAll("mass", [&] { store.setVelocityAndMass(1, {0, 0}, ++mass); });
+    expectAll("mass of a static body", [&] { store.setStaticMass(1, 2); });
+    expectAll("replace", [&] { store.replace(numberedStore().columns(), Edits::Everything, {}); });
+    expectEdits(Edits::Values, "edit", [&] { store.edit<double>(); });
+    expectEdits(Edits::Values, "position", [&] { store.setPosition(BodyRef::moving(1), {0, 0}); });
+    expectEdits(Edits::Values, "velocity", [&] {
+        store.setVelocityAndMass(1, {7, 7}, store.mass(BodyRef::moving(1)));
+    });
+    store.replace(numberedStore().columns(), Edits::None, {});
+    EXPECT_EQ(store.edits(), Edits::None) << "a run that is resumed goes on as if nothing happened";
+    const std::uint64_t before = store.layout();
     store.permute(Order{1, 0, 2, 3, 4, 5}, Order{0, 1, 2, 3});
-    EXPECT_NE(store.revision(), before) << "other bodies are in the rows";
-    EXPECT_FALSE(store.edited()) << "but nothing has happened to them";
+    EXPECT_NE(store.layout(), before) << "other bodies are in the rows";
+    EXPECT_EQ(store.edits(), Edits::None) << "but nothing has happened to them";
     store.edit<double>();
     store.permute(Order{1, 0, 2, 3, 4, 5}, Order{0, 1, 2, 3});
-    EXPECT_TRUE(store.edited());
+    EXPECT_EQ(store.edits(), Edits::Values);
 }
 
 TEST(BodyStore, CountsOtherPhysicsAsAnEdit) {
     BodyStore store = numberedStore();
     const Physics before{Law::Continuous, {0, -1}, 0.5};
     store.advance<double>({}, before);
-    EXPECT_FALSE(store.advance<double>({}, before).edited);
+    EXPECT_EQ(store.advance<double>({}, before).edits, Edits::None);
     for (const Physics& after :
          {Physics{Law::Impulse, {0, -1}, 0.5}, Physics{Law::Continuous, {1, -1}, 0.5},
           Physics{Law::Continuous, {0, -1}, 0.6}}) {
-        EXPECT_TRUE(store.advance<double>({}, after).edited);
-        EXPECT_FALSE(store.advance<double>({}, after).edited);
-        store.replace(numberedStore().columns(), false, before);
-        EXPECT_TRUE(store.advance<double>({}, after).edited);
-        store.replace(numberedStore().columns(), false, before);
+        EXPECT_EQ(store.advance<double>({}, after).edits, Edits::Everything);
+        EXPECT_EQ(store.advance<double>({}, after).edits, Edits::None);
+        store.replace(numberedStore().columns(), Edits::None, before);
+        EXPECT_EQ(store.advance<double>({}, after).edits, Edits::Everything);
+        store.replace(numberedStore().columns(), Edits::None, before);
     }
-    EXPECT_FALSE(store.advance<double>({}, before).edited);
+    EXPECT_EQ(store.advance<double>({}, before).edits, Edits::None);
 }
 
 TEST(BodyStore, ARefusedBodyLeavesNothing) {
@@ -360,7 +378,7 @@ TEST(BodyStore, ARefusedBodyLeavesNothing) {
     EXPECT_EQ(store.movingCount(), 6u);
     EXPECT_EQ(store.staticCount(), 4u);
     EXPECT_EQ(store.velocity(0), numbered(0).velocity);
-    EXPECT_FALSE(store.edited());
+    EXPECT_EQ(store.edits(), Edits::None);
 }
 
 // ---- the columns of a law's own

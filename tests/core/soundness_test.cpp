@@ -42,7 +42,7 @@ void damage(World& world, const std::function<void(Doubles&)>& change) {
     BodyStore& store = WorldAccess::store(world);
     BodyStore::AnyColumns columns = store.columns();
     change(std::get<Doubles>(columns));
-    store.replace(std::move(columns), true, {});
+    store.replace(std::move(columns), Edits::Everything, {});
 }
 
 bool names(const World& world, const std::string& words) {

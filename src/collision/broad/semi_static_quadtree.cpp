@@ -82,10 +82,11 @@ bool SemiStaticQuadtreePartitioner<Real>::update(const BodyView<Real>& bodies, R
         if (due) rebuild(bodies, reach, 0);
         return due;
     }
+    // A body that was put elsewhere has left its box, or is still covered.
     // Who knows how far bodies will get asks again when they may have got there.
     const bool looksAhead = reach.common > 0 || !reach.own.empty();
     const bool due = looksAhead || this->partition_.generation == 0 ||
-                     bodies.revision != builtRevision_ || anyLeft(bodies);
+                     bodies.layout != builtLayout_ || anyLeft(bodies);
     if (!due) return false;
     rebuild(bodies, reach, looksAhead ? Real(0) : chooseSkin(bodies, dt));
     if (!looksAhead) rememberPositions(bodies);
@@ -97,6 +98,7 @@ void SemiStaticQuadtreePartitioner<Real>::rebuild(const BodyView<Real>& bodies,
                                                   const Reach<Real>& reach, Real skin) {
     builder_.build(bodies, reach, skin, this->partition_);
     builtRevision_ = bodies.revision;
+    builtLayout_ = bodies.layout;
     age_ = 0;
 }
 
@@ -133,7 +135,7 @@ bool SemiStaticQuadtreePartitioner<Real>::anyLeft(const BodyView<Real>& bodies) 
 template <class Real>
 double SemiStaticQuadtreePartitioner<Real>::walked(const BodyView<Real>& bodies) const {
     const auto& m = bodies.moving;
-    if (bodies.revision != builtRevision_) return 0;  // other bodies may be in the rows
+    if (bodies.revision != builtRevision_) return 0;  // some were put elsewhere
     const Real farthest = team_.maximum<Real>(m.size(), &Thresholds::streamed,
                                               [&](std::size_t begin, std::size_t end) {
                                                   Real most = 0;

@@ -29,7 +29,7 @@ class SemiStaticQuadtreePartitioner final : public Partitioner<Real> {
     const ThreadTeam& team_;
     QuadtreeBuilder<Real> builder_;
     std::vector<Real> builtX_, builtY_;  // positions at the last build, where a skin is watched
-    std::uint64_t builtRevision_ = 0;
+    std::uint64_t builtRevision_ = 0, builtLayout_ = 0;
     std::uint32_t age_ = 0;  // steps since the last build
 };
 

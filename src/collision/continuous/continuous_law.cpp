@@ -22,6 +22,9 @@ constexpr double leastOutlier = 8;
 constexpr std::uint64_t usualEventsPerBody = 1000;
 constexpr std::uint32_t mostEventsOfABody = 1'000'000;
 
+/// Each edit of a body rounds its position, which the reach covers for so many.
+constexpr int mostEdits = 16;
+
 // What the parts of the search cost; measured (docs/performance.md).
 constexpr double buildPrice = 90;    // ns a body, for cells and the walk through them
 constexpr double collectPrice = 40;  // ns a candidate pair, found, listed and searched
@@ -55,23 +58,48 @@ void ContinuousLaw<Real, Path>::begin(const LawBodies<Real>& bodies, Step<Real>&
     eventsOf_.clear();
     placed_ = bodies.placed;
     if (step.audited) place(bodies, step.from);
-    if (revision_ != bodies.revision) takeOver(bodies, step.from);
+    if (revision_ == bodies.revision) return;
+    const bool goesOn = done_ == step.from && step.from < horizon_;
+    if (goesOn && bodies.edits == Edits::Values && layout_ == bodies.layout) {
+        takeEdits(bodies, step.from);
+    } else {
+        takeOver(bodies, step.from);
+    }
+}
+
+/// Has a body set out anew from where the columns say that it is.
+template <class Real, class Path>
+void ContinuousLaw<Real, Path>::setOut(const LawBodies<Real>& bodies, std::uint32_t row,
+                                       double now) {
+    const auto& m = bodies.moving;
+    bodies.anchors[row] = {m.x[row], m.y[row], m.vx[row], m.vy[row], now, now};
+    if constexpr (falls) bodies.rests[row] = 0;
+}
+
+/// What happened at this very moment does not hold back bodies that were edited since.
+template <class Real, class Path>
+void ContinuousLaw<Real, Path>::forgetMoment() {
+    events_.bursts = {};
+    events_.instant = -1;
+    events_.separated.clear();
 }
 
 /// Makes the bodies those that the law knows: at the beginning, and when somebody else has changed
-/// them. A body that is not where its anchor says, be it new, edited, or brought from another run
-/// or another time, sets out anew from where it is.
+/// more of them than takeEdits() looks at, with the same result. A body that is not where its
+/// anchor says, be it new, edited, or brought from another run or another time, sets out anew from
+/// where it is.
 template <class Real, class Path>
 void ContinuousLaw<Real, Path>::takeOver(const LawBodies<Real>& bodies, double now) {
     const auto& m = bodies.moving;
     const auto rows = static_cast<std::uint32_t>(m.size());
-    // Rows may have moved, sizes changed: what is known is found again. Where bodies were edited,
-    // overlaps are looked for as well, and around each event after; where a run is resumed, not, so
-    // that it goes on as if it had not been interrupted.
+    // Rows may have moved, sizes changed: what is known is found again. Overlaps are looked for
+    // around bodies that set out anew; where sizes or obstacles may be others, around all; where a
+    // run is resumed, around none, so that it goes on as if it had not been interrupted.
     place(bodies, now);
     revision_ = bodies.revision;
+    layout_ = bodies.layout;
     events_.queue.clear();
-    events_.bursts = {};
+    forgetMoment();
     horizon_ = now;
     stamps_.assign(rows, 0);
     auto& changed = events_.changed;
@@ -79,14 +107,47 @@ void ContinuousLaw<Real, Path>::takeOver(const LawBodies<Real>& bodies, double n
     events_.mayRest = false;
     const Motion motion = motionOf(bodies);
     for (std::uint32_t i = 0; i < rows; ++i) {
-        if (!motion.isPlaced(i, now)) {
-            bodies.anchors[i] = {m.x[i], m.y[i], m.vx[i], m.vy[i], now, now};
-            if constexpr (falls) bodies.rests[i] = 0;
-            if (!bodies.edited) changed.push_back(i);
-        }
-        if (bodies.edited) changed.push_back(i);
+        const bool setsOut = !motion.isPlaced(i, now);
+        if (setsOut) setOut(bodies, i, now);
+        if (setsOut || bodies.edits == Edits::Everything) changed.push_back(i);
         if constexpr (falls) events_.mayRest = events_.mayRest || bodies.rests[i] != 0;
     }
+}
+
+/// Takes over positions and velocities that somebody else has changed, and keeps what is known of
+/// all other bodies.
+template <class Real, class Path>
+void ContinuousLaw<Real, Path>::takeEdits(const LawBodies<Real>& bodies, double now) {
+    const auto& m = bodies.moving;
+    const auto rows = static_cast<std::uint32_t>(m.size());
+    revision_ = bodies.revision;
+    forgetMoment();
+    const Motion motion = motionOf(bodies);
+    const Search search(motion, neighbours_, stamps_, sketches_);
+    bool covered = ++editsSince_ <= mostEdits;
+    for (std::uint32_t i = 0; i < rows; ++i) {
+        if (motion.isPlaced(i, now)) continue;
+        // The partition knows nothing of what is near another place.
+        covered = covered && static_cast<Real>(motion.path(i, 0).position(now)) == m.x[i] &&
+                  static_cast<Real>(motion.path(i, 1).position(now)) == m.y[i];
+        setOut(bodies, i, now);
+        search.changed(i);
+        events_.changed.push_back(i);
+    }
+    if (!covered || !coversChanged(motion, now, false)) horizon_ = now;
+}
+
+/// Whether the partition covers what bodies do that have changed now. A fresh one covers their
+/// speeds; but one that rested, and that nothing holds any more, falls.
+template <class Real, class Path>
+bool ContinuousLaw<Real, Path>::coversChanged(const Motion& motion, double now, bool fresh) const {
+    const auto falling = [&](std::uint32_t row, int axis) {
+        return magnitude(acceleration(motion.path(row, axis))) > gravityNow_;
+    };
+    return std::none_of(events_.changed.begin(), events_.changed.end(), [&](std::uint32_t row) {
+        return fresh ? falling(row, 0) || falling(row, 1)
+                     : outruns(motion, row, now, horizon_, bounds_);
+    });
 }
 
 template <class Real, class Path>
@@ -263,6 +324,7 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     // Bounds that events break again and again are too narrow.
     outlier_ = outran_ ? std::min(4 * outlier_, 1e9) : std::max(outlier_ / 2, leastOutlier);
     outran_ = false;
+    editsSince_ = 0;
     horizon_ = now + life;
     partitionTime_ = now;
     eventsSince_ = 0;
@@ -276,9 +338,11 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     const auto boundOf = [&](double speed) { return gain * (speed + gained); };
     bounds_.common = boundOf(outliers ? typical : fastest_);
     bounds_.own = nullptr;
-    // The rest covers the rounding of positions, and what counts as touching.
+    // The rest covers the rounding of positions, in events and by edits, and what counts as
+    // touching.
     const double room = 2 * touchTolerance * largest_;
-    constexpr double eps = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+    constexpr double eps =
+        (8 + mostEdits / 2) * static_cast<double>(std::numeric_limits<Real>::epsilon());
     farthest_ += boundOf(fastest_) * life;
     const auto wayAt = [&](double bound) {
         return static_cast<Real>(bound * life * (1 + 1e-6) + eps * farthest_ + room);
@@ -320,10 +384,12 @@ template <class Real, class Path>
 double ContinuousLaw<Real, Path>::advance(const LawBodies<Real>& bodies,
                                           const Partition<Real>& partition, double now,
                                           Step<Real>& step) {
+    done_.reset();
     const double done = runEvents(bodies, partition, now, step);
     placed_ = false;
     step.clock.finish(Phase::Resolve);
     if (someoneLooks(step)) place(bodies, done);
+    done_ = done;
     step.clock.finish(Phase::Integrate);
     return done;
 }
@@ -341,7 +407,8 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     if (shares) to = std::min(to, now + stretch);
     const Motion motion = motionOf(bodies);
     const Search search(motion, neighbours_, stamps_, sketches_);
-    if (candidates_.update(bodies.read(), partition)) {
+    const bool fresh = candidates_.update(bodies.read(), partition);
+    if (fresh) {
         neighbours_.link(bodies.moving.size(), candidates_);
         // Meetings do not depend on steps, so they are found for as long as the pairs last. What an
         // event has led to at this very moment stays.
@@ -371,6 +438,10 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     Loop loop(search, events_, window);
     const auto neighboursOf = [&](std::uint32_t row) { return neighbours_[row]; };
     loop.releaseFromChanged(now);
+    if (!coversChanged(motion, now, fresh)) {
+        horizon_ = now;
+        return now;
+    }
     loop.findForChanged(now, neighboursOf);
     const std::uint64_t before = step.counts.events;
     if (shares && runShared(bodies, search, window, now, step)) {

@@ -46,6 +46,10 @@ class ContinuousLaw final : public ContactLaw<Real> {
     };
 
     void takeOver(const LawBodies<Real>& bodies, double now);
+    void takeEdits(const LawBodies<Real>& bodies, double now);
+    void setOut(const LawBodies<Real>& bodies, std::uint32_t row, double now);
+    void forgetMoment();
+    bool coversChanged(const Motion& motion, double now, bool fresh) const;
     void survey(const LawBodies<Real>& bodies);
     template <class Function>
     double sumOver(std::size_t rows, Function&& function) const;
@@ -73,6 +77,8 @@ class ContinuousLaw final : public ContactLaw<Real> {
     double restitution_;
 
     std::optional<std::uint64_t> revision_;  // of the bodies that all below is about
+    std::uint64_t layout_ = 0;               // the same
+    std::optional<double> done_;             // s; up to here events were run, if none failed
     bool placed_ = true;                     // the columns say where bodies are now
     bool uniformMass_ = true;
 
@@ -92,6 +98,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     double life_ = 0;                // s, of the last partition, if no event ends it before
     double outlier_ = 0;             // times the mean speed; faster bodies have bounds of their own
     bool outran_ = false;            // an event made a body faster than its bound
+    int editsSince_ = 0;             // partitionTime_, steps before which bodies were edited
     double density_ = 0;             // candidate pairs a px^2 around a body
     std::uint64_t eventsSince_ = 0;  // partitionTime_
     std::uint64_t mostEvents_ = 0;   // after which the pairs are not worth their life

@@ -164,7 +164,7 @@ QUADRILLE_HD inline bool outruns(const ExactMotion<Real, Path>& motion, std::uin
     for (int axis = 0; axis < 2; ++axis) {
         const Path p = motion.path(row, axis);
         const double speed = magnitude(p.speed(now)) + magnitude(acceleration(p)) * (until - now);
-        if (speed > bounds[row]) return true;
+        if (!(speed <= bounds[row])) return true;  // NaN is no speed
     }
     return false;
 }
