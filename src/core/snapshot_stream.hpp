@@ -38,7 +38,7 @@ template <class T>
 concept PlainRow = PlainNumber<T> || std::same_as<T, BodyRef> || std::same_as<T, Anchor<double>> ||
     std::same_as<T, Anchor<float>>;
 
-static_assert(sizeof(BodyRef) == 4 && sizeof(Anchor<double>) == 48 && sizeof(Anchor<float>) == 32,
+static_assert(sizeof(BodyRef) == 4 && sizeof(Anchor<double>) == 56 && sizeof(Anchor<float>) == 40,
               "rows go to files as they lie in memory");
 
 /// From the machine's byte order to that of files, which have the lowest byte first, and back. In
@@ -55,6 +55,7 @@ template <class Real>
 void toFileOrder(Anchor<Real>& a) {
     for (Real* const value : {&a.x, &a.y, &a.vx, &a.vy}) toFileOrder(*value);
     for (double* const time : {&a.timeX, &a.timeY}) toFileOrder(*time);
+    for (float* const low : {&a.lowX, &a.lowY}) toFileOrder(*low);
 }
 template <PlainRow T>
 void toFileOrder(std::vector<T>& rows) {

@@ -11,6 +11,7 @@
 #include "collision/rules/cell_ownership.hpp"
 #include "collision/rules/contact_law.hpp"
 #include "collision/rules/discrete_motion.hpp"
+#include "collision/rules/double_double.hpp"
 #include "collision/rules/event_order.hpp"
 #include "collision/rules/event_rules.hpp"
 #include "collision/rules/fine_grid.hpp"

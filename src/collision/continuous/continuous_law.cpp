@@ -517,12 +517,12 @@ bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const S
                                           const EventWindow& window, double now, Step<Real>& step) {
     if constexpr (!falls) {
         if (!shared_) return false;
-        // Both bodies get on by the fastest's way at most; rounding grows with how far anchors lie
-        // away, which is up to how far a body came in the run.
-        constexpr double eps = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+        // Both bodies get on by the fastest's way at most, and positions and times are rounded.
+        constexpr double eps = 64 * machineEpsilon<Real>;
+        constexpr double epsTime = 64 * machineEpsilon<double>;
         const double fastest = gainOf() * fastest_;
-        const double way =
-            2 * fastest * (window.to - now) + eps * (farthest_ + fastest * std::abs(window.to));
+        const double way = 2 * fastest * (window.to - now) + eps * farthest_ +
+                           epsTime * fastest * std::abs(window.to);
         std::vector<ContactRecord>* const records = step.keepContacts ? &records_ : nullptr;
         return shared_->run(bodies.read(), search, events_, window, way, records, step.counts);
     }

@@ -42,6 +42,7 @@ struct Anchor {
     Real x = 0, y = 0;                        ///< px
     Real vx = 0, vy = 0;                      ///< px/s
     double timeX = unknown, timeY = unknown;  ///< s
+    float lowX = 0, lowY = 0;                 ///< px; what x and y have no digits for
 };
 
 template <class Real>

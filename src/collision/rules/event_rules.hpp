@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <quadrille/body_ref.hpp>
@@ -101,6 +102,25 @@ QUADRILLE_HD inline double surfaceFor(const ExactMotion<Real, Path>& motion, con
     return deep ? at : surface;
 }
 
+/// Whether the moving pair of an event meets along an axis, or has met at this instant and overlaps
+/// only because times are rounded.
+template <class Real, class Path>
+QUADRILLE_HD inline bool meets(const ExactMotion<Real, Path>& motion, const PairEvent& event,
+                               int axis, double sense) {
+    if (event.axes != 0) return true;
+    constexpr double eps = machineEpsilon<double>;
+    const double now = event.time;
+    const Path p = motion.path(event.a, axis);
+    const Path q = motion.path(event.b, axis);
+    const double a = p.position(now);
+    const double b = q.position(now);
+    const double reach = motion.reachOf(event.a, event.b, axis);
+    const double speeds = magnitude(p.speed(now)) + magnitude(q.speed(now));
+    const double slack =
+        8 * eps * (magnitude(a) + magnitude(b) + reach) + 2 * eps * magnitude(now) * speeds;
+    return magnitude((b - a) * sense - reach) <= slack;
+}
+
 // ---- elastic collisions
 
 /// Two bodies that are free to move collide elastically along an axis. Returns the impulse, kg
@@ -116,10 +136,19 @@ QUADRILLE_HD inline double exchange(const ExactMotion<Real, Path>& motion, const
     const double before = a.speed(now);
     double va = before;
     double vb = b.speed(now);
-    if (massA == massB && event.axes != 0 && acceleration(a) == acceleration(b)) {
-        const double shift = sense * motion.reachOf(event.a, event.b, axis);
-        motion.set(event.a, axis, b.anchor - shift, b.velocity, b.time);
-        motion.set(event.b.row(), axis, a.anchor + shift, a.velocity, a.time);
+    if (massA == massB && acceleration(a) == acceleration(b) && meets(motion, event, axis, sense)) {
+        const std::uint32_t rowB = event.b.row();
+        const DoubleDouble shift = sense * motion.exactReachOf(event.a, event.b, axis);
+        const DoubleDouble forA = motion.anchor(rowB, axis) - shift;
+        const DoubleDouble forB = motion.anchor(event.a, axis) + shift;
+        if (acceleration(a) == 0) {
+            const double reach = magnitude(shift.high);
+            motion.setStraight(event.a, axis, forA, b.velocity, b.time, now, reach);
+            motion.setStraight(rowB, axis, forB, a.velocity, a.time, now, reach);
+        } else {
+            motion.set(event.a, axis, forA, b.velocity, b.time);
+            motion.set(rowB, axis, forB, a.velocity, a.time);
+        }
         return massA * magnitude(vb - va);
     }
     exchangeImpulse(va, vb, massA, massB, 1.0);
@@ -132,6 +161,22 @@ QUADRILLE_HD inline double exchange(const ExactMotion<Real, Path>& motion, const
     return massA * magnitude(va - before);
 }
 
+/// A body that falls rebounds elastically from a surface, at a time that is rounded: where it is
+/// too far by then it goes back, with the speed that its energy gives it, so that neither drifts.
+template <class Real, class Path>
+QUADRILLE_HD inline void mirrorFall(const ExactMotion<Real, Path>& motion, std::uint32_t row,
+                                    int axis, const DoubleDouble& surface, double now) {
+    const Path p = motion.path(row, axis);
+    const double s = now - p.time;
+    const double pull = acceleration(p);
+    const DoubleDouble start = motion.anchor(row, axis) - surface;
+    const double beyond = start.high + (p.velocity + pull / 2 * s) * s;
+    const double square = p.velocity * p.velocity - 2 * pull * (start.high + beyond);
+    const double speed = p.speed(now);
+    const double rebound = square > 0 ? std::sqrt(square) : magnitude(speed);
+    motion.set(row, axis, surface + DoubleDouble{-beyond, 0}, speed > 0 ? -rebound : rebound, now);
+}
+
 /// The moving body of an event rebounds elastically from the static one. Returns the impulse.
 template <class Real, class Path>
 QUADRILLE_HD inline double bounceOff(const ExactMotion<Real, Path>& motion, const PairEvent& event,
@@ -139,11 +184,19 @@ QUADRILLE_HD inline double bounceOff(const ExactMotion<Real, Path>& motion, cons
     const double now = event.time;
     const Path p = motion.path(event.a, axis);
     const double speed = p.speed(now);
-    const double surface = surfaceFor(motion, event, event.a, event.b, axis, sense);
-    if (event.axes != 0 && acceleration(p) == 0) {
-        motion.set(event.a, axis, 2 * surface - p.anchor, -p.velocity, p.time);
-    } else {
+    if (event.axes == 0) {
+        const double surface = surfaceFor(motion, event, event.a, event.b, axis, sense);
         motion.set(event.a, axis, surface, -speed, now);
+    } else {
+        const DoubleDouble reach = motion.exactReachOf(event.a, event.b, axis);
+        const DoubleDouble surface =
+            DoubleDouble{motion.path(event.b, axis).anchor, 0} - sense * reach;
+        if (acceleration(p) == 0) {
+            const DoubleDouble mirrored = 2 * surface - motion.anchor(event.a, axis);
+            motion.setStraight(event.a, axis, mirrored, -p.velocity, p.time, now, reach.high);
+        } else {
+            mirrorFall(motion, event.a, axis, surface, now);
+        }
     }
     return static_cast<double>(motion.bodies.moving.mass[event.a]) * magnitude(2 * speed);
 }

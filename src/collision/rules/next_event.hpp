@@ -142,10 +142,26 @@ QUADRILLE_HD inline void findNext(const ExactMotion<Real, Path>& motion, std::ui
         slackY = motion.rounding(own.along[1], other.along[1], reachY, from);
         findRest(motion, pairEvent(motion.bodies, row, b, from), to, afterEvent, emit);
     }
-    const auto x = approach(own.along[0], other.along[0], reachX, slackX);
-    if (!touches(x, from, to)) return;
-    const auto y = approach(own.along[1], other.along[1], reachY, slackY);
-    if (!touches(y, from, to)) return;
+    double seenX = laterAnchor(own.along[0], other.along[0]);
+    double seenY = laterAnchor(own.along[1], other.along[1]);
+    if constexpr (!Path::falls) {
+        // From one time along both axes, so that a corner is hit along both at one time.
+        seenX = seenY = seenX > seenY ? seenX : seenY;
+    }
+    // Most pairs are told apart by times that are off by their last digits.
+    constexpr double eps = 4 * machineEpsilon<double>;
+    const double early = from - eps * magnitude(from);
+    const double late = to + eps * magnitude(to);
+    auto x = approach(own.along[0], other.along[0], seenX, reachX, slackX);
+    if (!touches(x, early, late)) return;
+    auto y = approach(own.along[1], other.along[1], seenY, reachY, slackY);
+    if (!touches(y, early, late)) return;
+    if constexpr (!Path::falls) {
+        if (seenX != 0) {
+            x = preciseApproach(own.along[0], other.along[0], seenX, reachX);
+            y = preciseApproach(own.along[1], other.along[1], seenY, reachY);
+        }
+    }
     const Meeting meeting = meet(x, y, from);
     if (meeting.time <= to) {
         PairEvent met = pairEvent(motion.bodies, row, b, meeting.time);

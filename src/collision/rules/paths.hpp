@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -8,6 +9,7 @@
 
 #include "collision/rules/bodies.hpp"
 #include "collision/rules/contact_law.hpp"
+#include "collision/rules/double_double.hpp"
 #include "collision/rules/trajectory.hpp"
 
 /// On which path each body of the law `continuous` is, for host and device alike.
@@ -26,6 +28,11 @@ QUADRILLE_HD inline constexpr std::uint8_t axisBit(int axis) { return axis == 0 
 /// What is so much of its touching distance nearer or farther still touches: far above what
 /// rounding adds up to in many events, far below what can be seen.
 inline constexpr double touchTolerance = 1e-9;
+
+/// An anchor is moved along its path when an event finds it more than so many times as far away as
+/// the body's touching distance and its distance from the origin: then positions have nearly all
+/// digits that places so far from the origin can have.
+inline constexpr double longestWay = 64;
 
 /// The paths of all bodies along the axes 0 (x) and 1 (y), in double precision, and what decides
 /// about them. A moving body is its row.
@@ -49,6 +56,9 @@ struct ExactMotion {
         const Anchor<Real>& from = bodies.moving.anchors[row];
         Path result{};
         result.anchor = axis == 0 ? from.x : from.y;
+        if constexpr (sizeof(Real) < sizeof(double)) {
+            result.anchor += static_cast<double>(axis == 0 ? from.lowX : from.lowY);
+        }
         result.velocity = axis == 0 ? from.vx : from.vy;
         result.time = axis == 0 ? from.timeX : from.timeY;
         if constexpr (falls) result.acceleration = rests(row, axis) ? 0 : gravity(axis);
@@ -66,16 +76,48 @@ struct ExactMotion {
         return {{path(body, 0), path(body, 1)}};
     }
 
+    /// The anchor with all its digits, px.
+    QUADRILLE_HD DoubleDouble anchor(std::uint32_t row, int axis) const {
+        const Anchor<Real>& from = bodies.moving.anchors[row];
+        return {axis == 0 ? from.x : from.y, axis == 0 ? from.lowX : from.lowY};
+    }
+
     /// Puts a body on another path along an axis. Its velocity in the columns follows here, and
     /// where bodies fall, in place().
-    QUADRILLE_HD void set(std::uint32_t row, int axis, double anchor, double velocity,
+    QUADRILLE_HD void set(std::uint32_t row, int axis, const DoubleDouble& anchor, double velocity,
                           double time) const {
         const auto& m = bodies.moving;
         Anchor<Real>& to = m.anchors[row];
-        (axis == 0 ? to.x : to.y) = static_cast<Real>(anchor);
+        const auto high = static_cast<Real>(anchor.high);
+        const double low = (anchor.high - static_cast<double>(high)) + anchor.low;
+        (axis == 0 ? to.x : to.y) = high;
+        (axis == 0 ? to.lowX : to.lowY) = static_cast<float>(low);
         (axis == 0 ? to.vx : to.vy) = static_cast<Real>(velocity);
         (axis == 0 ? to.timeX : to.timeY) = time;
         if constexpr (!falls) (axis == 0 ? m.vx : m.vy)[row] = static_cast<Real>(velocity);
+    }
+    QUADRILLE_HD void set(std::uint32_t row, int axis, double anchor, double velocity,
+                          double time) const {
+        set(row, axis, DoubleDouble{anchor, 0}, velocity, time);
+    }
+
+    /// Puts a body on another straight path, with an anchor as near as need be. It is moved to a
+    /// time on a coarse grid of powers of two, so that few digits are added: on a lattice of
+    /// doubles none is lost, elsewhere so little that millions of times are not seen.
+    QUADRILLE_HD void setStraight(std::uint32_t row, int axis, DoubleDouble anchor, double velocity,
+                                  double time, double now, double reach) const {
+        constexpr double mostSpeed = 1e200;  // products of faster ones may overflow
+        const double way = velocity * (now - time);
+        const double room = longestWay * (magnitude(anchor.high + way) + reach);
+        if (magnitude(way) > room && magnitude(velocity) < mostSpeed) {
+            const double grid = std::ldexp(1.0, std::ilogb(now - time) - 5);
+            const double later = std::floor(now / grid) * grid;
+            const DoubleDouble passed = twoSum(later, -time);
+            anchor =
+                anchor + twoProduct(velocity, passed.high) + DoubleDouble{velocity * passed.low, 0};
+            time = later;
+        }
+        set(row, axis, anchor, velocity, time);
     }
 
     /// Writes into the columns where a body is at time t.
@@ -102,10 +144,17 @@ struct ExactMotion {
 
     /// The distance of the centres of two bodies when they touch, px.
     QUADRILLE_HD double reachOf(std::uint32_t a, BodyRef b, int axis) const {
+        return halfOf(BodyRef::moving(a), axis) + halfOf(b, axis);
+    }
+    /// The same with all digits.
+    QUADRILLE_HD DoubleDouble exactReachOf(std::uint32_t a, BodyRef b, int axis) const {
+        return twoSum(halfOf(BodyRef::moving(a), axis), halfOf(b, axis));
+    }
+
+    QUADRILLE_HD double halfOf(BodyRef body, int axis) const {
         const auto& own = axis == 0 ? bodies.moving.halfWidth : bodies.moving.halfHeight;
         const auto& fixed = axis == 0 ? bodies.fixed.halfWidth : bodies.fixed.halfHeight;
-        const double half = b.isStatic() ? fixed[b.row()] : own[b.row()];
-        return static_cast<double>(own[a]) + half;
+        return body.isStatic() ? fixed[body.row()] : own[body.row()];
     }
 
     /// A distance that may come from the rounding of positions and of times, px.
@@ -143,7 +192,8 @@ QUADRILLE_HD inline double alongsideUntil(const ExactMotion<Real, Path>& motion,
     const Path p = motion.path(a, axis);
     const Path q = motion.path(b, axis);
     const double reach = motion.reachOf(a, b, axis);
-    return insideUntil(approach(p, q, reach, motion.rounding(p, q, reach, now)), now);
+    const double slack = motion.rounding(p, q, reach, now);
+    return insideUntil(approach(p, q, laterAnchor(p, q), reach, slack), now);
 }
 
 /// How fast bodies may be along either axis for the partition to cover them, px/s.

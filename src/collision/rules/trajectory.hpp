@@ -6,6 +6,7 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/contact_law.hpp"
+#include "collision/rules/double_double.hpp"
 
 /// Exact motion between events, and when two boxes meet, for host and device alike.
 
@@ -66,6 +67,26 @@ QUADRILLE_HD inline Interval within(double d, double u, double t0, double reach)
     return u > 0 ? Interval{first, second} : Interval{second, first};
 }
 
+/// t0 + distance / u, rounded once, so that the time of a meeting does not depend on where anchors
+/// lie.
+QUADRILLE_HD inline double timeAfter(double t0, double distance, double u) {
+    const double quotient = distance / u;
+    if (t0 == 0) return quotient;
+    const DoubleDouble product = twoProduct(quotient, u);
+    const double rest = ((distance - product.high) - product.low) / u;
+    const DoubleDouble sum = twoSum(t0, quotient);
+    const double time = sum.high + (sum.low + rest);
+    return time == time ? time : t0 + quotient;  // of what overflows
+}
+
+/// within() with times that are rounded once.
+QUADRILLE_HD inline Interval preciselyWithin(double d, double u, double t0, double reach) {
+    if (u == 0) return within(d, u, t0, reach);
+    const double first = timeAfter(t0, -reach - d, u);
+    const double second = timeAfter(t0, reach - d, u);
+    return u > 0 ? Interval{first, second} : Interval{second, first};
+}
+
 /// Roots of c + u s + a s^2 / 2 with a > 0, without cancellation: the one of larger magnitude
 /// first, the other from their product (Press et al., Numerical Recipes, section 5.6). Returns
 /// whether there are two.
@@ -98,19 +119,33 @@ QUADRILLE_HD inline Intervals<2> within(double d, double u, double a, double t0,
     return result;
 }
 
-/// When the distance from a to b along one axis is within reach.
-QUADRILLE_HD inline Intervals<1> approach(const StraightPath& a, const StraightPath& b,
+/// The later of two anchors: a time that only events decide about.
+template <class Path>
+QUADRILLE_HD inline double laterAnchor(const Path& a, const Path& b) {
+    return a.time > b.time ? a.time : b.time;
+}
+
+/// When the distance from a to b along one axis is within reach, as seen from time t0. One that
+/// does not change is seen from the later anchor, where it is rounded least.
+QUADRILLE_HD inline Intervals<1> approach(const StraightPath& a, const StraightPath& b, double t0,
                                           double reach, double) {
-    // Seen from the later anchor: a time that only events decide about.
-    const double t0 = a.time > b.time ? a.time : b.time;
-    return {{within(b.position(t0) - a.position(t0), b.velocity - a.velocity, t0, reach)}};
+    const double u = b.velocity - a.velocity;
+    const double from = u == 0 ? laterAnchor(a, b) : t0;
+    return {{within(b.position(from) - a.position(from), u, from, reach)}};
+}
+
+/// The same with times that are rounded once.
+QUADRILLE_HD inline Intervals<1> preciseApproach(const StraightPath& a, const StraightPath& b,
+                                                 double t0, double reach) {
+    const double u = b.velocity - a.velocity;
+    const double from = u == 0 ? laterAnchor(a, b) : t0;
+    return {{preciselyWithin(b.position(from) - a.position(from), u, from, reach)}};
 }
 
 /// The same under gravity. A distance that does not change and is `slack` less than reach counts as
 /// touching: rounding must not make a box trip over the edges of the floor that it slides on.
-QUADRILLE_HD inline Intervals<2> approach(const FallingPath& a, const FallingPath& b, double reach,
-                                          double slack) {
-    const double t0 = a.time > b.time ? a.time : b.time;
+QUADRILLE_HD inline Intervals<2> approach(const FallingPath& a, const FallingPath& b, double t0,
+                                          double reach, double slack) {
     const double d = b.position(t0) - a.position(t0);
     const double u = b.speed(t0) - a.speed(t0);
     const double acceleration = b.acceleration - a.acceleration;

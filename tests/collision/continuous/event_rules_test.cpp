@@ -268,6 +268,20 @@ TYPED_TEST(EventRules, AWallMirrorsAPathBitForBit) {
     EXPECT_EQ(outcome.impulse, -4 * static_cast<double>(speed));
 }
 
+TYPED_TEST(EventRules, AFarAnchorIsMovedAlongItsPath) {
+    PlainWorld<TypeParam, StraightPath> world;
+    world.add({.x = 0});
+    const auto motion = world.motion();
+    const DoubleDouble anchor{-2990, std::ldexp(1.0, -55)};
+    motion.setStraight(0, 0, anchor, 3, 0, 200, 2);
+    EXPECT_EQ(motion.anchor(0, 0).high, -2990) << "600 px are near, 2390 px from the origin";
+    EXPECT_EQ(world.anchors[0].timeX, 0);
+    motion.setStraight(0, 0, anchor, 3, 0, 1000.3, 2);
+    EXPECT_EQ(world.anchors[0].timeX, 992) << "a multiple of 2^4 s";
+    EXPECT_EQ(motion.anchor(0, 0).high, -2990 + 3 * 992);
+    EXPECT_EQ(motion.anchor(0, 0).low, std::ldexp(1.0, -55)) << "no digit is lost";
+}
+
 TYPED_TEST(EventRules, WhatPartsDoesNotCollide) {
     PlainWorld<TypeParam, StraightPath> world;
     world.add({.x = 0, .vx = -1});

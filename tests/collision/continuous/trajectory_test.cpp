@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <limits>
 #include <string>
 
 #include <quadrille/random.hpp>
@@ -55,8 +56,8 @@ TEST(Trajectory, TheDistanceDoesNotDependOnWhichBodyIsAsked) {
         const StraightPath a = path();
         const StraightPath b = path();
         const double reach = random.uniform(0, 20);
-        const Interval p = approach(a, b, reach, 0).at[0];
-        const Interval q = approach(b, a, reach, 0).at[0];
+        const Interval p = approach(a, b, laterAnchor(a, b), reach, 0).at[0];
+        const Interval q = approach(b, a, laterAnchor(a, b), reach, 0).at[0];
         ASSERT_EQ(p.enter, q.enter);
         ASSERT_EQ(p.leave, q.leave);
         // And it is the distance that the paths have.
@@ -64,6 +65,18 @@ TEST(Trajectory, TheDistanceDoesNotDependOnWhichBodyIsAsked) {
             ASSERT_NEAR(std::abs(b.position(t) - a.position(t)), reach, 1e-9 * (1 + std::abs(t)));
         }
     }
+}
+
+TEST(Trajectory, TimesDoNotDependOnWhereAnchorsLie) {
+    Random random(72);
+    for (int i = 0; i < 10000; ++i) {
+        const auto distance = static_cast<double>(random.integer(1, 1000));
+        const auto u = static_cast<double>(random.integer(1, 1000));
+        const auto t0 = static_cast<double>(random.integer(-1000, 1000)) / 8;
+        ASSERT_EQ(timeAfter(t0, distance - t0 * u, u), distance / u);
+    }
+    EXPECT_EQ(timeAfter(1, 1e300, 1e-300), std::numeric_limits<double>::infinity())
+        << "what overflows is never";
 }
 
 // ---- falling
@@ -133,7 +146,7 @@ TEST(Trajectory, AParabolaMayTurnBefore) {
 TEST(Trajectory, FallingTogetherIsStraight) {
     const FallingPath a{0, 1, 0, 10};
     const FallingPath b{8, -1, 0, 10};
-    const Intervals<2> i = approach(a, b, 4, 0);
+    const Intervals<2> i = approach(a, b, 0, 4, 0);
     EXPECT_DOUBLE_EQ(i.at[0].enter, 2);
     EXPECT_DOUBLE_EQ(i.at[0].leave, 6);
     EXPECT_TRUE(isEmpty(i.at[1]));
@@ -142,9 +155,9 @@ TEST(Trajectory, FallingTogetherIsStraight) {
 TEST(Trajectory, WhatSlidesAlongAFloorTouchesAndIsNotWithin) {
     const FallingPath floor{0, 0, 0, 0};
     const double rounded = std::nextafter(4, 0);
-    EXPECT_FALSE(isEmpty(approach(floor, {rounded, 0, 0, 0}, 4, 0).at[0]));
-    EXPECT_TRUE(isEmpty(approach(floor, {rounded, 0, 0, 0}, 4, 1e-12).at[0]));
-    EXPECT_FALSE(isEmpty(approach(floor, {rounded, -1e-9, 0, 0}, 4, 1e-12).at[0]));
+    EXPECT_FALSE(isEmpty(approach(floor, {rounded, 0, 0, 0}, 0, 4, 0).at[0]));
+    EXPECT_TRUE(isEmpty(approach(floor, {rounded, 0, 0, 0}, 0, 4, 1e-12).at[0]));
+    EXPECT_FALSE(isEmpty(approach(floor, {rounded, -1e-9, 0, 0}, 0, 4, 1e-12).at[0]));
 }
 
 // ---- both axes
