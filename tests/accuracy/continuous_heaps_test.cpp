@@ -252,6 +252,42 @@ TEST(TightFit, StandsWhateverTheRestitution) {
     }
 }
 
+TEST(TightFit, OfARowStandsWithRoomBelowTheTouchingDistance) {
+    for (const int count : {1, 2, 7, 44}) {
+        for (const double room : {1e-11, 1e-10, 1e-9, 2e-9}) {
+            SCOPED_TRACE(std::to_string(count) + " squares, room " + std::to_string(room));
+            const double gap = room / (count + 1);
+            Simulation sim = tightRow(count, gap, 1);
+            sim.run(3);
+            for (int i = 0; i < count; ++i) {
+                const auto row = static_cast<std::size_t>(i);
+                EXPECT_NEAR(position(sim, row).x(), (4 + gap) * i, 1e-8);
+            }
+        }
+    }
+}
+
+// Each square passes the velocity on at once, and few are under way: no square has many hits in a
+// nanosecond, and all have millions in a step.
+TEST(TightFit, StopsWhatGoesToAndFroThroughARow) {
+    constexpr int count = 44;
+    for (const double room : {1e-10, 2.3e-9, 2e-8}) {
+        SCOPED_TRACE("room " + std::to_string(room));
+        std::vector<Body> bodies;
+        for (int i = 0; i < count; ++i) bodies.push_back({{3.0 * i, 0}, {0, 0}, {3, 3}});
+        bodies[0].velocity = {35, 0};
+        bodies.push_back({{-6.5, 0}, {0, 0}, {10, 40}, 1, true});
+        bodies.push_back({{3.0 * (count - 1) + 6.5 + room, 0}, {0, 0}, {10, 40}, 1, true});
+        Simulation sim = accuracy::simulate({Law::Continuous, Precision::Double}, bodies,
+                                            {.step = {.restitution = 1}});
+        sim.run(3);
+        EXPECT_LT(kineticEnergy(sim.world()), 1e-9);
+        for (int i = 0; i < count; ++i) {
+            EXPECT_NEAR(position(sim, static_cast<std::size_t>(i)).x(), 3.0 * i, 1e-7);
+        }
+    }
+}
+
 TEST(TightFit, WithHardlyAnyRoomIsAnErrorThatNamesTheBodiesAndTheTime) {
     Simulation sim = tightRow(1, 1e-8, 1);
     try {

@@ -28,9 +28,12 @@ bool EventLoop<Real, Path>::separatedAlready(const PairEvent& event) {
 
 /// Whether one of the bodies collides so often at once that it gets nowhere.
 template <class Real, class Path>
-bool EventLoop<Real, Path>::isJammed(const PairEvent& event, bool deep) {
-    const Bursts::Counts counts = state_.bursts.note(event, deep);
-    return counts.events > Bursts::mostEvents || (deep && counts.overlaps > Bursts::mostOverlaps);
+bool EventLoop<Real, Path>::isJammed(const PairEvent& event, const EventContact& contact) {
+    // What loses something each time ends by itself.
+    const bool lossless = motion_.restitution == 1;
+    const double touching =
+        lossless ? touchingFor(motion_, event, contact.axes) : Bursts::notTouching;
+    return state_.bursts.note({event, contact.deep, touching}).jam(contact.deep);
 }
 
 /// Carries an event out. Returns whether any path changed.
@@ -42,7 +45,7 @@ bool EventLoop<Real, Path>::resolve(const PairEvent& event, ContactRecord& recor
     const EventContact contact = contactOf(motion_, event);
     if (contact.deep && motion_.restitution == 1 && separatedAlready(event)) return false;
     Motion motion = motion_;
-    if (isJammed(event, contact.deep)) {
+    if (isJammed(event, contact)) {
         jammed_ = true;
         if (window_.share || (contact.deep && !event.withStatic())) return false;
         motion.restitution = 0;

@@ -95,7 +95,7 @@ class EventLoop {
 
     void changed(std::uint32_t row);
     bool separatedAlready(const PairEvent& event);
-    bool isJammed(const PairEvent& event, bool deep);
+    bool isJammed(const PairEvent& event, const EventContact& contact);
     bool resolve(const PairEvent& event, ContactRecord& record);
     EventOutcome collide(const Motion& motion, const PairEvent& event, int axis, double sense);
 

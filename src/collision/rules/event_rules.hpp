@@ -78,6 +78,24 @@ QUADRILLE_HD inline EventContact contactOf(const ExactMotion<Real, Path>& motion
     return contact;
 }
 
+/// For how long the pair of an event has been within the touching distance at most, s: at the speed
+/// at which it meets.
+template <class Real, class Path>
+QUADRILLE_HD inline double touchingFor(const ExactMotion<Real, Path>& motion,
+                                       const PairEvent& event, std::uint8_t axes) {
+    const double now = event.time;
+    double longest = 0;
+    for (int axis = 0; axis < 2; ++axis) {
+        if ((axes & axisBit(axis)) == 0) continue;
+        const double speed =
+            motion.path(event.b, axis).speed(now) - motion.path(event.a, axis).speed(now);
+        const double room = touchTolerance * motion.reachOf(event.a, event.b, axis);
+        const double since = speed == 0 ? never : room / magnitude(speed);
+        longest = since > longest ? since : longest;
+    }
+    return longest;
+}
+
 enum class Outcome : std::uint8_t { Nothing, Touch, Collision };
 
 /// What an event did along an axis.
