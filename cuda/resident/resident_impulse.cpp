@@ -47,6 +47,8 @@ void ResidentImpulse<Real>::load(const BodyView<Real>& bodies, PhaseClock& clock
     bodies_.load(bodies, clock);
     grid_.lay(gridFor(config_.partitioner, bodies, worldSize_), worldSize_);
     hostCounts_.reserve(1);
+    map_.load(bodies);
+    if (!map_.empty()) starts_.reserve(bodies.moving.size());
 }
 
 template <class Real>
@@ -54,7 +56,16 @@ ResidentCounts ResidentImpulse<Real>::tryStep(Step<Real>& step) {
     const DeviceContacts<Real> list = contacts_.begin(true, step.keepContacts);
     findContacts(device_.launch(), bodies_.bodies(), grid_.cells(), grid_.ownership(),
                  step.parameters.dt, list);
+    const bool keptOut = !map_.empty();
+    if (keptOut) {
+        noteStarts(device_.launch(), bodies_.bodies(), list, step.parameters.dt, starts_.data(),
+                   contacts_.expected());
+    }
     contacts_.resolve(list, step.parameters);
+    if (keptOut) {
+        keepTouchedOut(device_.launch(), bodies_.bodies(), bodies_.touched(), map_.view(),
+                       starts_.data(), 2 * contacts_.expected());
+    }
     finishStep(device_.launch(), list.heads, bodies_.touched(), grid_.entries(), grid_.badRow(),
                hostCounts_.data(), 2 * contacts_.expected());
     device_.finish(step.clock);
@@ -102,7 +113,7 @@ const Cells& ResidentImpulse<Real>::cells() {
 
 template <class Real>
 std::size_t ResidentImpulse<Real>::bytes() const {
-    return device_.memoryUsed() + bodies_.hostBytes() + hostCounts_.bytes() +
+    return device_.memoryUsed() + bodies_.hostBytes() + map_.hostBytes() + hostCounts_.bytes() +
            records_.capacity() * sizeof(ContactRecord);
 }
 

@@ -8,6 +8,7 @@
 #include "cuda/broad/device_grid.hpp"
 #include "cuda/device/device_session.hpp"
 #include "cuda/discrete/impulse_contacts.hpp"
+#include "cuda/resident/device_static_map.hpp"
 #include "cuda/resident/resident_kernels.hpp"
 #include "cuda/resident_pipeline.hpp"
 
@@ -37,6 +38,8 @@ class ResidentImpulse final : public ResidentPipeline<Real> {
     DeviceBodies<Real> bodies_{device_};
     DeviceGrid<Real> grid_{device_, bodies_};
     ImpulseContacts<Real> contacts_{device_, bodies_};
+    DeviceStaticMap<Real> map_{device_};
+    DeviceArray<Place<Real>> starts_{device_.budget()};  // by rows, of bodies with contacts
     PinnedArray<ResidentCounts> hostCounts_;
     std::vector<ContactRecord> records_;
     Cells cells_;

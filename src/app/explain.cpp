@@ -40,10 +40,8 @@ void explainResident(std::ostream& out, const SimulationConfig& config, const Mo
     const bool read = f.listeners || window;
     row(out, read, "bodies read each step",
         read ? "positions and velocities are copied to the host" : "they stay on the device");
-    row(out, f.staticBodies || config.countMissedPairs, "steps on the host",
-        f.staticBodies            ? "all: it keeps bodies out of static ones"
-        : config.countMissedPairs ? "those whose missed pairs are counted"
-                                  : "");
+    row(out, config.countMissedPairs, "steps on the host",
+        config.countMissedPairs ? "those whose missed pairs are counted" : "");
 }
 
 }  // namespace

@@ -5,10 +5,12 @@
 namespace quadrille {
 
 template <class Real>
-void StaticMap<Real>::update(const BodyView<Real>& bodies) {
-    if (!take(bodies) || empty()) return;
+bool StaticMap<Real>::update(const BodyView<Real>& bodies) {
+    if (!take(bodies)) return false;
+    if (empty()) return true;
     makeGrid();
     fill();
+    return true;
 }
 
 /// Takes over the boxes and the size of the largest moving body. Returns whether any has changed.

@@ -8,6 +8,7 @@
 
 #include "collision/rules/fine_grid.hpp"
 #include "collision/rules/pair_geometry.hpp"
+#include "collision/rules/static_map_view.hpp"
 
 namespace quadrille {
 
@@ -16,41 +17,27 @@ namespace quadrille {
 template <class Real>
 class StaticMap {
   public:
-    /// Makes the map that of these static boxes; called after an edit.
-    void update(const BodyView<Real>& bodies);
+    /// Makes the map that of these static boxes; called after an edit. Returns whether it is
+    /// another one now.
+    bool update(const BodyView<Real>& bodies);
 
     bool empty() const { return boxes_.empty(); }
+    std::size_t size() const { return boxes_.size(); }
 
-    /// Whether there is surely nothing within `roomX` and `roomY` of the point.
-    bool clear(Real x, Real y, Real roomX, Real roomY) const {
-        return roomX <= clearance_ && roomY <= clearance_ && !crowded_[cellAt(x, y)];
-    }
-
-    /// Calls `function(box)` for the boxes that overlap the region, for some more than once.
-    template <class Function>
-    void forEachIn(const Box<Real>& region, Function&& function) const {
-        const FineRange r = grid_.range(region.x, region.y, region.halfWidth, region.halfHeight);
-        for (std::uint32_t y = r.y0; y <= r.y1; ++y) {
-            for (std::uint32_t x = r.x0; x <= r.x1; ++x) {
-                const std::size_t cell = y * side_ + x;
-                for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
-                    const Box<Real>& box = boxes_[members_[i]];
-                    if (overlap(region, box)) function(box);
-                }
-            }
-        }
+    /// For the rules, until the next call of `update`; of a map that is not empty.
+    StaticMapView<Real> view() const {
+        return {.boxes = boxes_.data(),
+                .offsets = offsets_.data(),
+                .members = members_.data(),
+                .crowded = crowded_.data(),
+                .grid = grid_,
+                .side = side_,
+                .clearance = clearance_};
     }
 
     std::size_t bytes() const;
 
   private:
-    std::size_t cellAt(Real x, Real y) const {
-        const auto cell = [](Real position, Real low, Real per, Real last) {
-            return std::size_t(FineGrid<Real>::coordinate(position, low, per, last));
-        };
-        return cell(y, grid_.lowY, grid_.perY, grid_.lastY) * side_ +
-               cell(x, grid_.lowX, grid_.perX, grid_.lastX);
-    }
     FineRange rangeOf(const Box<Real>& box, Real inflation) const {
         return grid_.range(box.x, box.y, box.halfWidth + inflation, box.halfHeight + inflation);
     }

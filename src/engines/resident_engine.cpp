@@ -53,8 +53,7 @@ bool ResidentEngine<Real>::audited(const StepWindow& window) const {
 template <class Real>
 void ResidentEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport& report) {
     if (!lost_.empty()) throw DeviceError(lost_);
-    // What keeps bodies out of static boxes is the host's.
-    lastWasHere_ = audited(window) || store.staticCount() > 0;
+    lastWasHere_ = audited(window);
     if (lastWasHere_) {
         stepHere(store, window, report);
     } else {

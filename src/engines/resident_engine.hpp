@@ -47,7 +47,7 @@ class ResidentEngine final : public Engine, public BodyMirror {
     Vec2 worldSize_;
     ThreadTeam team_;  // used by what follows
     std::unique_ptr<ResidentPipeline<Real>> pipeline_;
-    std::unique_ptr<HostEngine<Real>> host_;  // of steps that the device does not do
+    std::unique_ptr<HostEngine<Real>> host_;  // of steps that are audited
     std::unique_ptr<MissedPairCounter<Real>> audits_;
     bool lastWasHere_ = false;
 

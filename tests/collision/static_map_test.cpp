@@ -55,7 +55,7 @@ TEST(StaticMap, ShowsWhatIsInARegion) {
                                      random.uniform(0.5, i % 5 == 0 ? 90 : 3),
                                      random.uniform(0.5, 3)};
             std::vector<double> shown, right;
-            map.forEachIn(region, [&](const Box<double>& box) { shown.push_back(box.x); });
+            map.view().forEachIn(region, [&](const Box<double>& box) { shown.push_back(box.x); });
             for (std::size_t k = 0; k < boxes.x.size(); ++k) {
                 const Box<double> box{boxes.x[k], boxes.y[k], boxes.halfWidth[k],
                                       boxes.halfHeight[k]};
@@ -66,7 +66,7 @@ TEST(StaticMap, ShowsWhatIsInARegion) {
             std::sort(right.begin(), right.end());
             ASSERT_EQ(shown, right);
             found += int(right.size());
-            if (map.clear(region.x, region.y, region.halfWidth, region.halfHeight)) {
+            if (map.view().clear(region.x, region.y, region.halfWidth, region.halfHeight)) {
                 ASSERT_TRUE(right.empty());
             }
         }
@@ -82,17 +82,17 @@ TEST(StaticMap, FollowsAnEdit) {
     map.update(boxes.view());
     const auto countAt = [&](double x) {
         int count = 0;
-        map.forEachIn({x, 0, 1, 1}, [&](const Box<double>&) { ++count; });
+        map.view().forEachIn({x, 0, 1, 1}, [&](const Box<double>&) { ++count; });
         return count;
     };
     EXPECT_GT(countAt(0), 0);
     EXPECT_EQ(countAt(50), 0);
-    EXPECT_TRUE(map.clear(50, 0, 1.5, 1.5));
+    EXPECT_TRUE(map.view().clear(50, 0, 1.5, 1.5));
     boxes.x[0] = 50;
     map.update(boxes.view());
     EXPECT_EQ(countAt(0), 0);
     EXPECT_GT(countAt(50), 0);
-    EXPECT_FALSE(map.clear(50, 0, 1.5, 1.5));
+    EXPECT_FALSE(map.view().clear(50, 0, 1.5, 1.5));
 }
 
 TEST(StaticMap, StaysSmallHoweverManyLargeBoxesItHas) {

@@ -23,6 +23,7 @@
 #include "collision/rules/pair_geometry.hpp"
 #include "collision/rules/paths.hpp"
 #include "collision/rules/rest_rules.hpp"
+#include "collision/rules/static_map_view.hpp"
 #include "collision/rules/step_parameters.hpp"
 #include "collision/rules/trajectory.hpp"
 #include "kernel_test.hpp"

@@ -137,6 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ResidentRandomScenes, testing::ValuesIn(sceneKin
 
 World someBoxes(int count, bool own = false) {
     World world({.size = {300, 300}});
+    world.addWalls({.thickness = 20});
     Random random(3);
     for (int i = 0; i < count; ++i) {
         const Vec2 size = own ? Vec2(random.uniform(1, 9), random.uniform(1, 9)) : Vec2(4, 4);
@@ -160,6 +161,7 @@ TEST(Resident, MakesRoomAndLosesNothing) {
                 {3, 3});
         }
         makeBox(world, {0, 0}, moving(3, 2, 50), {250, 250});
+        world.addWalls({.thickness = 40});
         return world;
     };
     for (const PartitionerConfig& cells :
@@ -171,6 +173,53 @@ TEST(Resident, MakesRoomAndLosesNothing) {
                                                        .step = {.restitution = 0.9}},
                                                       4);
         EXPECT_GT(contacts, 50'000u);
+    }
+}
+
+/// Rooms full of boxes with pegs among them, and a push that the light box cannot give way to.
+TEST(Resident, KeepsBodiesOutOfStaticBoxes) {
+    QUADRILLE_NEEDS_DEVICE();
+    const auto room = [] {
+        World world({.size = {200, 160}});
+        world.addWalls({.thickness = 40});
+        makeBox(world, {20, 0}, fixed(), {10, 10});
+        makeBox(world, {12.5, 0}, moving(0, 0, 1), {4, 4});
+        makeBox(world, {8.2, 0}, moving(300, 0, 1000), {4, 4});
+        // One that starts in two static boxes.
+        makeBox(world, {60, 50}, fixed(), {10, 20});
+        makeBox(world, {73, 50}, fixed(), {10, 20});
+        makeBox(world, {66.6, 50}, moving(7, 3), {4, 4});
+        Random random(20261128);
+        for (int i = -9; i < 9; ++i) {
+            for (int j = -7; j < 7; ++j) {
+                const Vec2 size(random.uniform(4, 7), random.uniform(4, 7));
+                const Vec2 velocity(random.uniform(-90, 90), random.uniform(-90, 90));
+                const bool peg = random.uniform(0, 1) < 0.1;
+                makeBox(world, {10.0 * i + 5, 10.0 * j + 5},
+                        peg ? fixed() : moving(velocity.x(), velocity.y(), 1 + i * i), size);
+            }
+        }
+        return world;
+    };
+    const Edit removesAPeg = [](World& world, std::uint64_t step) {
+        if (step % 20 != 19) return;
+        Entity peg;
+        world.each<PhysicsBody>([&](Entity e, const PhysicsBody& b) {
+            if (b.isStatic) peg = e;
+        });
+        world.destroy(peg);
+    };
+    for (const Precision precision : {Precision::Double, Precision::Float}) {
+        for (const CellsCase& cells : partitioners) {
+            SCOPED_TRACE(cells.name);
+            expectLockstep(room,
+                           {.partitioner = cells.config,
+                            .law = Law::Impulse,
+                            .precision = precision,
+                            .resolver = resident,
+                            .step = {.gravity = {0, -300}, .restitution = 0.4}},
+                           100, removesAPeg);
+        }
     }
 }
 
