@@ -1,5 +1,6 @@
 #include "app/run_watch.hpp"
 
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -38,9 +39,32 @@ constexpr auto longSection = 1s;
     std::_Exit(exitCode);
 }
 
+/// Threads that are made meanwhile leave interrupts to the others: of two that come at once, the
+/// main thread takes the lower one first.
+class WithoutInterrupts {
+  public:
+#ifdef _WIN32
+    WithoutInterrupts() {}
+#else
+    WithoutInterrupts() {
+        sigset_t interrupts;
+        sigemptyset(&interrupts);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&interrupts, signal);
+        pthread_sigmask(SIG_BLOCK, &interrupts, &before_);
+    }
+    ~WithoutInterrupts() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  private:
+    sigset_t before_;
+#endif
+};
+
 }  // namespace
 
-RunWatch::RunWatch(Hooks hooks) : hooks_(std::move(hooks)), thread_([this] { watch(); }) {}
+RunWatch::RunWatch(Hooks hooks) : hooks_(std::move(hooks)) {
+    const WithoutInterrupts here;
+    thread_ = std::thread([this] { watch(); });
+}
 
 RunWatch::~RunWatch() {
     {
