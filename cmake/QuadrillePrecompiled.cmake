@@ -1,5 +1,5 @@
 # Headers that nearly every source includes are parsed once and not for each. A source still includes
-# what it uses: CMAKE_DISABLE_PRECOMPILE_HEADERS=ON, under which CI builds one preset, shows who does not.
+# what it uses: CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows who does not.
 set(QUADRILLE_COMMON_HEADERS
   <algorithm> <array> <cmath> <cstdint> <functional> <memory> <string> <vector>
   <quadrille/simulation.hpp>)
