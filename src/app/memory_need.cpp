@@ -26,6 +26,10 @@ BytesPerBody measured(const PartitionerConfig& partitioner) {
     return {170, 195, 50};
 }
 
+/// What a run keeps to end soon after a signal (RunSession): a copy of the bodies, with their
+/// anchors under `continuous`.
+constexpr double ofCheckpoint = 45, ofAnchors = 70;
+
 constexpr double ofFloat = 0.87;  ///< as a part of what doubles take
 constexpr double ofColors = 20;
 constexpr double ofReference = 920;  ///< what --error keeps
@@ -35,7 +39,8 @@ constexpr std::uint64_t ofProgram = 16'000'000;
 
 std::uint64_t memoryNeed(const SimulationConfig& config, std::uint64_t movingBodies, bool colors) {
     const BytesPerBody table = measured(config.partitioner);
-    double bytes = config.law == Law::Continuous ? table.continuous : table.discrete;
+    const bool exact = config.law == Law::Continuous;
+    double bytes = (exact ? table.continuous + ofAnchors : table.discrete) + ofCheckpoint;
     if (config.resolver != ResolverKind::Sequential) bytes += table.threads;
     if (config.precision == Precision::Float) bytes *= ofFloat;
     if (colors) bytes += ofColors;

@@ -90,6 +90,7 @@ void RunSession::keepCheckpoint() {
         const auto due = std::max<Clock::duration>(leastAge, ageByCost * checkpoint_->cost);
         if (repeats && before - checkpoint_->taken < due) return;
     }
+    checkpoint_.reset();  // two at once would take as much again
     checkpoint_ = {run_.simulation.snapshot(), run_.simulation.config(), before, {}};
     checkpoint_->cost = Clock::now() - before;
 }

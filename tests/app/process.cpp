@@ -93,9 +93,11 @@ ProcessResult Process::finish(Seconds timeout) {
         }
     }
     int status = 0;
-    while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    rusage usage{};
+    while (wait4(child_, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     child_ = -1;
+    result.peakBytes = 1024 * double(usage.ru_maxrss);
     result.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.out = captured_[0];
     result.err = captured_[1];

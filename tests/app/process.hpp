@@ -13,6 +13,7 @@ namespace quadrille {
 struct ProcessResult {
     int exitCode = -1;  ///< 128 + the signal's number if a signal ended it, as in a shell
     bool timedOut = false;
+    double peakBytes = 0;  ///< the most memory that it had at once
     std::string out, err;
 };
 
