@@ -126,7 +126,8 @@ TEST_F(SignalInAFrame, LeavesItWithTheOutputsOfTheFrameBefore) {
     EXPECT_EQ(result.exitCode, 128 + SIGTERM);
     const Json summary = Json::parse(contentOf(path("run.json")));
     EXPECT_EQ(summary["interrupted"], true);
-    EXPECT_LT(summary["collisions"], lanes * 500'000);
+    // None of the frame that would have taken minutes.
+    EXPECT_LT(summary["collisions"], lanes * 10'000);
 
     const Json undisturbed = summaryOf({"--scene", scene, "--frames", summary["frames"].dump()});
     EXPECT_EQ(summary["state_hash"], undisturbed["state_hash"]);
