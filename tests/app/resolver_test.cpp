@@ -53,6 +53,23 @@ TEST_P(NoDevice, IsAnErrorWithoutFallback) {
 INSTANTIATE_TEST_SUITE_P(Resolver, NoDevice, testing::Values("cuda", "cuda-resident"),
                          [](const auto& test) { return identifier(test.param); });
 
+/// The exact law runs by default, and not everywhere.
+TEST(DefaultLaw, GivesWayToAPolicyThatMissesPairsWithAWarning) {
+    const Arguments every = cradle + Arguments{"--rebuild", "every:3", "--json", "-"};
+    const ProcessResult unnamed = runProgram(every);
+    ASSERT_EQ(unnamed.exitCode, 0);
+    EXPECT_EQ(Json::parse(unnamed.out)["law"], "impulse");
+    EXPECT_TRUE(contains(unnamed.err, "'continuous' needs a partition")) << unnamed.err;
+    const ProcessResult named = runProgram(every + Arguments{"--law", "impulse"});
+    EXPECT_FALSE(contains(named.err, "warning")) << named.err;
+    expectRefusal(every + Arguments{"--law", "continuous"}, 2, {"misses no pair", "impulse"});
+}
+
+TEST(DefaultLaw, IsRefusedWithWhatRunsInstead) {
+    expectRefusal(cradle + Arguments{"--resolver", "cuda", "--no-fallback"}, 2,
+                  {"continuous", "cuda", "--law impulse"});
+}
+
 TEST(Resolver, AutoNeedsNoFallback) {
     const ProcessResult result = runProgram(cradle + Arguments{"--no-fallback"});
     EXPECT_EQ(result.exitCode, 0);
