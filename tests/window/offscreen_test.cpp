@@ -85,7 +85,8 @@ TEST_F(Offscreen, ASignalEndsIt) {
     startOffscreen({"--scene", "cradle", "--csv", "-", "--json", file("run.json")});
     ASSERT_TRUE(program_->waitUntil([&] { return contains(program_->out(), "\n3,"); }));
     program_->sendSignal(SIGTERM);
-    EXPECT_EQ(program_->finish().exitCode, 128 + SIGTERM);
+    const ProcessResult result = program_->finish();
+    EXPECT_EQ(result.exitCode, 128 + SIGTERM) << result.err;
     EXPECT_EQ(Json::parse(contentOf(path("run.json")))["interrupted"], true);
 }
 
