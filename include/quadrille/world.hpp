@@ -46,6 +46,9 @@ concept BodyComponent =
 ///
 /// Body components are read and written by value (`get`, `set`), others by reference. A const World
 /// hands out nothing that can be written.
+///
+/// The first look at bodies after a step may be what puts them into place, or brings them from a
+/// device, also on a const World; so one thread looks first, and then any number may at a time.
 class World {
   public:
     explicit World(WorldConfig config = {});
