@@ -27,7 +27,7 @@ TEST(CudaOptions, ChangeNothingInTheState) {
     const auto hash = [](const Arguments& arguments) {
         const ProcessResult result = runProgram(arguments);
         EXPECT_EQ(result.exitCode, 0) << result.err;
-        return Json::parse(result.out)["state_hash"].get<std::string>();
+        return parseJson(result.out)["state_hash"].get<std::string>();
     };
     EXPECT_EQ(hash(wanted + Arguments{"--block-size", "32", "--cuda-thread", "cell"}),
               hash(shortRun + Arguments{"--resolver", "sequential", "--json", "-"}));
@@ -50,7 +50,7 @@ TEST(Cuda, AutoTakesADeviceForManyBodiesOnly) {
             runProgram({"--headless", "--scene", "balanced", "--entities", entities, "--law", law,
                         "--frames", "3", "--json", "-"});
         EXPECT_EQ(result.exitCode, 0) << result.err;
-        return Json::parse(result.out)["resolver"].get<std::string>();
+        return parseJson(result.out)["resolver"].get<std::string>();
     };
     EXPECT_EQ(resolverOf("1000", "impulse"), "sequential");
     EXPECT_EQ(resolverOf("100000", "impulse"), "cuda");
@@ -62,7 +62,7 @@ TEST(CudaOptions, TheLawContinuousRunsSequentially) {
     const ProcessResult result = runProgram(wanted + Arguments{"--json", "-"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_TRUE(contains(result.err, "continuous")) << result.err;
-    const Json summary = Json::parse(result.out);
+    const Json summary = parseJson(result.out);
     EXPECT_EQ(summary["resolver"], "sequential");
     EXPECT_EQ(summary["requested_resolver"], "cuda");
     EXPECT_TRUE(summary["device"].is_null());

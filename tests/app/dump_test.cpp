@@ -92,7 +92,7 @@ TEST_F(Dump, EventsAreTheCollisionsOfTheLibrary) {
     sim.run(30);
     ASSERT_GE(touches, collisions.size());
     ASSERT_EQ(table.rows.size(), collisions.size());
-    EXPECT_EQ(Json::parse(result.out)["collisions"], collisions.size());
+    EXPECT_EQ(parseJson(result.out)["collisions"], collisions.size());
     bool withStatic = false;
     for (std::size_t k = 0; k < collisions.size(); ++k) {
         const auto& row = table.rows[k];
@@ -130,7 +130,7 @@ TEST_F(Dump, CsvHasARowAFrame) {
     const ProcessResult result =
         runProgram(imbalanced + Arguments{"--csv", file("frames.csv"), "--json", "-"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    const Json summary = Json::parse(result.out);
+    const Json summary = parseJson(result.out);
     const Table table = parseTable(contentOf(path("frames.csv")));
     ASSERT_GE(table.columns.size(), 4u);
     EXPECT_EQ(table.columns[0], "frame");

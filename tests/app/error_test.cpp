@@ -154,7 +154,7 @@ TEST_F(Error, IsWrittenUpToTheLastFrameWhenInterrupted) {
     process.sendSignal(SIGINT);
     const ProcessResult result = process.finish();
     EXPECT_EQ(result.exitCode, 128 + SIGINT);
-    const Json s = Json::parse(contentOf(path("run.json")));
+    const Json s = parseJson(contentOf(path("run.json")));
     ASSERT_GT(s["frames"], 0);
     EXPECT_NEAR(s["error"]["horizon_s"].get<double>(),
                 s["frames"].get<double>() * s["dt"].get<double>(), 1e-9);

@@ -91,7 +91,7 @@ TEST_F(OutputFiles, StayAsTheyWereIfTheRunFails) {
 TEST_F(OutputFiles, AreReplacedByARunThatEnds) {
     write("run.json", "old");
     EXPECT_EQ(runProgram(cradle + Arguments{"--json", file("run.json")}).exitCode, 0);
-    EXPECT_EQ(Json::parse(contentOf(path("run.json")))["scene"], "cradle");
+    EXPECT_EQ(parseJson(contentOf(path("run.json")))["scene"], "cradle");
     EXPECT_EQ(files(), std::vector<std::string>{"run.json"});
 }
 
@@ -152,7 +152,7 @@ TEST_F(OutputFiles, AreNoConflictWithANeighbour) {
 TEST_F(OutputFiles, MayHaveTheNameOfAnotherWithAnEnding) {
     ASSERT_EQ(
         runProgram(cradle + Arguments{"--json", file("x"), "--save", file("x.part")}).exitCode, 0);
-    EXPECT_EQ(Json::parse(contentOf(path("x")), nullptr, false)["scene"], "cradle");
+    EXPECT_EQ(parseJson(contentOf(path("x")))["scene"], "cradle");
     summaryOf({"--load", file("x.part"), "--frames", "0"});
     EXPECT_EQ(files(), (std::vector<std::string>{"x", "x.part"}));
 }
@@ -227,7 +227,7 @@ TEST_F(OutputFiles, OfTwoRunsAtOnceAreWhole) {
         ASSERT_EQ(files(), (std::vector<std::string>{"json", "snapshot", "state"}));
         const Json loaded = summaryOf({"--load", file("snapshot"), "--frames", "0"});
         EXPECT_TRUE(loaded["entities"] == 3000 || loaded["entities"] == 4000);
-        EXPECT_TRUE(Json::parse(contentOf(path("json")), nullptr, false).is_object());
+        EXPECT_TRUE(parseJson(contentOf(path("json"))).is_object());
         const std::size_t rows = parseTable(contentOf(path("state"))).rows.size();
         EXPECT_TRUE(rows == 3000 || rows == 4000) << rows;
     }
@@ -283,7 +283,7 @@ TEST_F(OutputFiles, AreReachedThroughALink) {
     fs::create_symlink(path("target.json"), path("link.json"));
     EXPECT_EQ(runProgram(cradle + Arguments{"--json", file("link.json")}).exitCode, 0);
     EXPECT_TRUE(fs::is_symlink(path("link.json")));
-    EXPECT_EQ(Json::parse(contentOf(path("target.json")), nullptr, false)["scene"], "cradle");
+    EXPECT_EQ(parseJson(contentOf(path("target.json")))["scene"], "cradle");
 }
 
 TEST_F(OutputFiles, AreMadeWhereALinkPoints) {
@@ -292,8 +292,7 @@ TEST_F(OutputFiles, AreMadeWhereALinkPoints) {
     for (int run = 0; run < 2; ++run) {
         EXPECT_EQ(runProgram(cradle + Arguments{"--json", file("link.json")}).exitCode, 0);
         EXPECT_TRUE(fs::is_symlink(path("link.json")));
-        EXPECT_EQ(Json::parse(contentOf(path("folder/new.json")), nullptr, false)["scene"],
-                  "cradle");
+        EXPECT_EQ(parseJson(contentOf(path("folder/new.json")))["scene"], "cradle");
     }
 }
 

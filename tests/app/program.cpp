@@ -10,6 +10,8 @@
 #include <sstream>
 #include <system_error>
 
+template class nlohmann::basic_json<>;
+
 namespace quadrille {
 
 namespace fs = std::filesystem;
@@ -19,6 +21,8 @@ ProcessResult runProgram(const Arguments& arguments) {
     EXPECT_FALSE(result.timedOut);
     return result;
 }
+
+Json parseJson(const std::string& text) { return Json::parse(text, nullptr, false); }
 
 bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
@@ -95,7 +99,7 @@ std::vector<std::string> ProgramTest::files() const {
 Json ProgramTest::summaryOf(const Arguments& arguments) const {
     const ProcessResult result = runProgram(Arguments{"--headless", "--json", "-"} + arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
-    Json summary = Json::parse(result.out, nullptr, false);
+    Json summary = parseJson(result.out);
     EXPECT_TRUE(summary.is_object()) << result.out;
     return summary;
 }

@@ -2,12 +2,15 @@
 
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "process.hpp"
+
+// Compiled once, in program.cpp.
+extern template class nlohmann::basic_json<>;
 
 namespace quadrille {
 
@@ -21,6 +24,9 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
 
 /// Runs collisionStress to its end.
 ProcessResult runProgram(const Arguments& arguments);
+
+/// What a text says; a discarded value if it is no JSON.
+Json parseJson(const std::string& text);
 
 bool contains(std::string_view text, std::string_view part);
 

@@ -34,7 +34,7 @@ TEST_P(Fallback, IsNamedInEveryOutput) {
     const ProcessResult data = runProgram(run + Arguments{"--json", "-"});
     EXPECT_EQ(data.exitCode, 0);
     EXPECT_TRUE(contains(data.err, "warning")) << data.err;
-    const Json summary = Json::parse(data.out);
+    const Json summary = parseJson(data.out);
     EXPECT_EQ(summary["resolver"], "sequential");
     EXPECT_EQ(summary["requested_resolver"], GetParam());
 }
@@ -58,7 +58,7 @@ TEST(DefaultLaw, GivesWayToAPolicyThatMissesPairsWithAWarning) {
     const Arguments every = cradle + Arguments{"--rebuild", "every:3", "--json", "-"};
     const ProcessResult unnamed = runProgram(every);
     ASSERT_EQ(unnamed.exitCode, 0);
-    EXPECT_EQ(Json::parse(unnamed.out)["law"], "impulse");
+    EXPECT_EQ(parseJson(unnamed.out)["law"], "impulse");
     EXPECT_TRUE(contains(unnamed.err, "'continuous' needs a partition")) << unnamed.err;
     const ProcessResult named = runProgram(every + Arguments{"--law", "impulse"});
     EXPECT_FALSE(contains(named.err, "warning")) << named.err;
@@ -81,7 +81,7 @@ TEST(Resolver, SequentialIsWhatRuns) {
         runProgram(cradle + Arguments{"--resolver", "sequential", "--no-fallback", "--json", "-"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_FALSE(contains(result.err, "warning")) << result.err;
-    const Json summary = Json::parse(result.out);
+    const Json summary = parseJson(result.out);
     EXPECT_EQ(summary["resolver"], "sequential");
     EXPECT_EQ(summary["requested_resolver"], "sequential");
     EXPECT_EQ(summary["threads"], 1);
@@ -95,7 +95,7 @@ const Arguments pile = {"--headless", "--scene", "pile", "--frames", "30", "--js
 Json summaryOf(const Arguments& arguments) {
     const ProcessResult result = runProgram(arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
-    return Json::parse(result.out);
+    return parseJson(result.out);
 }
 
 TEST(Threads, EndInTheStateOfTheSequentialResolver) {
@@ -143,7 +143,7 @@ TEST(Threads, DoNotRunTheLawBaseline) {
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_TRUE(contains(result.err, "warning")) << result.err;
     EXPECT_TRUE(contains(result.err, "'baseline'")) << result.err;
-    const Json summary = Json::parse(result.out);
+    const Json summary = parseJson(result.out);
     EXPECT_EQ(summary["resolver"], "sequential");
     EXPECT_EQ(summary["requested_resolver"], "threads");
     EXPECT_EQ(summary["threads"], 1);

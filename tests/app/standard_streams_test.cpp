@@ -32,7 +32,7 @@ TEST_F(StandardStreams, ThatAreClosedAreNotTakenForAFile) {
                      "--dump-state",   file("state"), "--dump-events", file("events"), "--save",
                      file("snapshot")});
         EXPECT_EQ(result.exitCode, 0) << result.err;
-        const Json summary = Json::parse(contentOf(path("json")), nullptr, false);
+        const Json summary = parseJson(contentOf(path("json")));
         ASSERT_TRUE(summary.is_object());
         const Table frames = parseTable(contentOf(path("csv")));
         EXPECT_EQ(frames.rows.size(), 50u);
@@ -85,7 +85,7 @@ TEST_F(StandardStreams, ThatAreFullTakeNoFileAway) {
                                          "--json", file("json"), "--save", file("snapshot")})
                   .exitCode,
               1);
-    EXPECT_EQ(Json::parse(contentOf(path("json")), nullptr, false)["frames"], 5);
+    EXPECT_EQ(parseJson(contentOf(path("json")))["frames"], 5);
     EXPECT_EQ(files(), (std::vector<std::string>{"json", "snapshot"}));
 }
 

@@ -134,7 +134,7 @@ TEST_F(Summary, JsonInAFileLeavesTheWordsOnStdout) {
     EXPECT_EQ(result.err, "");
     EXPECT_TRUE(contains(result.out, "summary"));
     EXPECT_EQ(files(), std::vector<std::string>{"run.json"});
-    const Json s = Json::parse(contentOf(path("run.json")));
+    const Json s = parseJson(contentOf(path("run.json")));
     EXPECT_EQ(s["scene"], "cradle");
     EXPECT_TRUE(contains(result.out, s["state_hash"].get<std::string>()));
 }

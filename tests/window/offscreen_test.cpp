@@ -43,11 +43,11 @@ TEST_F(Offscreen, DrawsThePicturesOfAWindow) {
     start(run + Arguments{"--screenshot", file("window.png")});
     ProcessResult result = program_->finish();
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    const Json inWindow = Json::parse(result.out);
+    const Json inWindow = parseJson(result.out);
     startOffscreen(run + Arguments{"--screenshot", file("offscreen.png")});
     result = program_->finish();
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    const Json offscreen = Json::parse(result.out);
+    const Json offscreen = parseJson(result.out);
     EXPECT_EQ(offscreen["state_hash"], inWindow["state_hash"]);
     EXPECT_EQ(offscreen["window"]["pictures"], inWindow["window"]["pictures"]);
     const Image expected = readPng(path("window.png")), image = readPng(path("offscreen.png"));
@@ -63,7 +63,7 @@ TEST_F(Offscreen, TakesAStepInEveryPictureUnlessAskedForASpeed) {
                     "--screenshot", file("a.png")});
     const ProcessResult result = program_->finish();
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_EQ(Json::parse(result.out)["window"]["pictures"], 30);
+    EXPECT_EQ(parseJson(result.out)["window"]["pictures"], 30);
     EXPECT_EQ(readPng(path("a.png")).width, 320);
     EXPECT_EQ(readPng(path("a.png")).height, 200);
 }
@@ -87,7 +87,7 @@ TEST_F(Offscreen, ASignalEndsIt) {
     program_->sendSignal(SIGTERM);
     const ProcessResult result = program_->finish();
     EXPECT_EQ(result.exitCode, 128 + SIGTERM) << result.err;
-    EXPECT_EQ(Json::parse(contentOf(path("run.json")))["interrupted"], true);
+    EXPECT_EQ(parseJson(contentOf(path("run.json")))["interrupted"], true);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST_F(WindowRun, HasTheOutputsOfARunWithoutAWindow) {
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(result.err, "");
     EXPECT_TRUE(contains(result.out, "summary"));
-    const Json summary = Json::parse(contentOf(path("run.json")));
+    const Json summary = parseJson(contentOf(path("run.json")));
     const Json headless = summaryOf(run + Arguments{"--dump-events", file("other.csv")});
     EXPECT_EQ(summary["frames"], 120);
     EXPECT_EQ(summary["state_hash"], headless["state_hash"]);
@@ -51,7 +51,7 @@ TEST_F(WindowRun, KeepsToTheStepWhateverTheSpeed) {
     for (const char* speed : {"8", "1"}) {
         start(run + Arguments{"--speed", speed, "--json", file("run.json")});
         ASSERT_EQ(program_->finish().exitCode, 0);
-        const Json summary = Json::parse(contentOf(path("run.json")));
+        const Json summary = parseJson(contentOf(path("run.json")));
         EXPECT_EQ(summary["state_hash"], headless["state_hash"]);
         EXPECT_TRUE(summary["phases_ms"].is_null());
     }
@@ -62,7 +62,7 @@ TEST_F(WindowRun, MeasuresTheErrorAsWithoutAWindow) {
     start(run + Arguments{"--speed", "max", "--json", file("run.json")});
     const ProcessResult result = program_->finish();
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    const Json error = Json::parse(contentOf(path("run.json")))["error"];
+    const Json error = parseJson(contentOf(path("run.json")))["error"];
     EXPECT_TRUE(error.is_object());
     EXPECT_EQ(error, summaryOf(run)["error"]);
 }
@@ -82,7 +82,7 @@ TEST_F(WindowRun, EndsAfterItsDurationEvenIfPaused) {
     start({"--scene", "cradle", "--paused", "--duration", "0.5", "--json", "-"});
     const ProcessResult result = program_->finish();
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_EQ(Json::parse(result.out)["frames"], 0);
+    EXPECT_EQ(parseJson(result.out)["frames"], 0);
 }
 
 TEST_F(WindowRun, TheCloseButtonEndsItCleanly) {
@@ -90,7 +90,7 @@ TEST_F(WindowRun, TheCloseButtonEndsItCleanly) {
                 {"--json", file("run.json"), "--screenshot", file("last.png")});
     const ProcessResult result = close();
     EXPECT_TRUE(contains(result.out, "summary"));
-    EXPECT_EQ(Json::parse(contentOf(path("run.json")))["frames"], 0);
+    EXPECT_EQ(parseJson(contentOf(path("run.json")))["frames"], 0);
     EXPECT_EQ(readPng(path("last.png")).width, width);
 }
 
@@ -103,7 +103,7 @@ TEST_P(WindowSignal, EndsItCleanly) {
     const ProcessResult result = program_->finish();
     EXPECT_EQ(result.exitCode, 128 + GetParam());
     EXPECT_EQ(result.err, "");
-    EXPECT_EQ(Json::parse(contentOf(path("run.json")))["interrupted"], true);
+    EXPECT_EQ(parseJson(contentOf(path("run.json")))["interrupted"], true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Run, WindowSignal, testing::Values(SIGINT, SIGTERM), [](const auto& test) {

@@ -31,7 +31,7 @@ TEST_F(WindowSwitch, APartitionerThatIsChangedLiveChangesNothing) {
     }
     screen_->press("space");
     ASSERT_EQ(program_->finish().exitCode, 0);
-    const Json summary = Json::parse(contentOf(path("run.json")));
+    const Json summary = parseJson(contentOf(path("run.json")));
     EXPECT_EQ(summary["partitioner"], "static-grid");
     EXPECT_EQ(summary["frames"], 40);
     EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "40"})["state_hash"]);
@@ -43,7 +43,7 @@ TEST_F(WindowSwitch, ALawThatIsChangedLiveGoesOnFromTheState) {
     ASSERT_TRUE(titleHas("step 5,"));
     screen_->press("l");  // from the last of the laws to the first
     ASSERT_EQ(close().exitCode, 0);
-    const Json summary = Json::parse(contentOf(path("run.json")));
+    const Json summary = parseJson(contentOf(path("run.json")));
     EXPECT_EQ(summary["law"], "baseline");
     // Nothing has moved by the change.
     EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "5"})["state_hash"]);
@@ -56,7 +56,7 @@ TEST_F(WindowSwitch, AResolverThatIsChangedLiveChangesNothing) {
     screen_->press("t");
     screen_->press("space");
     ASSERT_EQ(program_->finish().exitCode, 0);
-    const Json summary = Json::parse(contentOf(path("run.json")));
+    const Json summary = parseJson(contentOf(path("run.json")));
     EXPECT_EQ(summary["resolver"], "threads");
     EXPECT_EQ(summary["threads"], 2);
     EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "30"})["state_hash"]);
@@ -68,7 +68,7 @@ TEST_F(WindowSwitch, ALawThatTheResolverDoesNotKnowRunsOnTheSequentialOne) {
     screen_->press("period");
     ASSERT_TRUE(titleHas("step 1,"));
     close();
-    const Json summary = Json::parse(contentOf(path("run.json")));
+    const Json summary = parseJson(contentOf(path("run.json")));
     EXPECT_EQ(summary["law"], "baseline");
     EXPECT_EQ(summary["resolver"], "sequential");
     EXPECT_EQ(summary["requested_resolver"], "threads");
@@ -85,7 +85,7 @@ TEST_F(WindowSwitch, ALawThatCannotRunIsRefused) {
     screen_->press("period");
     ASSERT_TRUE(titleHas("step 1,"));
     close();
-    EXPECT_EQ(Json::parse(contentOf(path("run.json")))["law"], "impulse");
+    EXPECT_EQ(parseJson(contentOf(path("run.json")))["law"], "impulse");
 }
 
 TEST_F(WindowSwitch, ResetStartsTheSceneAnewWithThePartitionerOfNow) {
@@ -98,7 +98,7 @@ TEST_F(WindowSwitch, ResetStartsTheSceneAnewWithThePartitionerOfNow) {
     for (int i = 0; i < 2; ++i) screen_->press("period");
     ASSERT_TRUE(titleHas("step 2,"));
     close();
-    const Json summary = Json::parse(contentOf(path("run.json")));
+    const Json summary = parseJson(contentOf(path("run.json")));
     EXPECT_EQ(summary["frames"], 2);
     EXPECT_EQ(summary["partitioner"], "static-grid");
     EXPECT_EQ(summary["state_hash"], summaryOf(scene_ + Arguments{"--frames", "2"})["state_hash"]);
