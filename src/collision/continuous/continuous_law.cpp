@@ -47,9 +47,7 @@ ContinuousLaw<Real, Path>::ContinuousLaw(const StepSettings& settings, const Thr
       restitution_(settings.restitution),
       candidates_(team),
       found_(team.size()) {
-    if (!falls && restitution_ == 1 && team.size() > 1) {
-        shared_ = std::make_unique<SharedEvents<Real>>(team);
-    }
+    if (team.size() > 1) shared_ = std::make_unique<SharedEvents<Real, Path>>(team);
 }
 
 template <class Real, class Path>
@@ -416,7 +414,7 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
                        {.from = now,
                         .to = horizon_,
                         .farthest = farthest_,
-                        .fastest = gainOf() * (fastest_ + gravityNow_ * (horizon_ - now)),
+                        .fastest = fastestAllowed(),
                         .largest = largest_,
                         .gravity = std::max(std::abs(gravityX_), std::abs(gravityY_))},
                        team_);
@@ -467,12 +465,18 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     return horizon_;
 }
 
+/// How fast a body within its bounds is at most until the horizon, px/s along an axis.
+template <class Real, class Path>
+double ContinuousLaw<Real, Path>::fastestAllowed() const {
+    return gainOf() * (fastest_ + gravityNow_ * (horizon_ - partitionTime_));
+}
+
 /// A stretch of time in which bodies stay so close to where they are that few concern each other,
 /// s.
 template <class Real, class Path>
 double ContinuousLaw<Real, Path>::sharedStretch() const {
     const double size = sizeSum_ / static_cast<double>(stamps_.size());
-    return size / (6 * gainOf() * fastest_);
+    return size / (6 * fastestAllowed());
 }
 
 /// Throws Error for a body that has so many events in this step that it would hardly ever end.
@@ -515,18 +519,17 @@ void ContinuousLaw<Real, Path>::noteDensity(std::size_t rows) {
 template <class Real, class Path>
 bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const Search& search,
                                           const EventWindow& window, double now, Step<Real>& step) {
-    if constexpr (!falls) {
-        if (!shared_) return false;
-        // Both bodies get on by the fastest's way at most, and positions and times are rounded.
-        constexpr double eps = 64 * machineEpsilon<Real>;
-        constexpr double epsTime = 64 * machineEpsilon<double>;
-        const double fastest = gainOf() * fastest_;
-        const double way = 2 * fastest * (window.to - now) + eps * farthest_ +
-                           epsTime * fastest * std::abs(window.to);
-        std::vector<ContactRecord>* const records = step.keepContacts ? &records_ : nullptr;
-        return shared_->run(bodies.read(), search, events_, window, way, records, step.counts);
-    }
-    return false;
+    if (!shared_) return false;
+    // Both bodies get on by the fastest's way at most, and positions and times are rounded; what
+    // touches, or rests on what has just left, is near.
+    constexpr double eps = 64 * machineEpsilon<Real>;
+    constexpr double epsTime = 64 * machineEpsilon<double>;
+    constexpr double touching = falls ? 1e-5 : 4 * touchTolerance;
+    const double fastest = fastestAllowed();
+    const double way = 2 * fastest * (window.to - now) + eps * farthest_ +
+                       epsTime * fastest * std::abs(window.to) + touching * largest_;
+    std::vector<ContactRecord>* const records = step.keepContacts ? &records_ : nullptr;
+    return shared_->run(bodies.read(), search, events_, window, way, records, step.counts);
 }
 
 template <class Real, class Path>

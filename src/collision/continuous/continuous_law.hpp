@@ -66,6 +66,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     void findAll(const Search& search, double from, double to);
     double runEvents(const LawBodies<Real>& bodies, const Partition<Real>& partition, double now,
                      Step<Real>& step);
+    double fastestAllowed() const;
     bool runShared(const LawBodies<Real>& bodies, const Search& search, const EventWindow& window,
                    double now, Step<Real>& step);
     Motion motionOf(const LawBodies<Real>& bodies) const;
@@ -109,7 +110,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     std::vector<std::uint32_t> stamps_;  // changes of each body so far
     std::vector<Found> found_;           // by each worker
     EventLoopState events_;
-    std::unique_ptr<SharedEvents<Real>> shared_;  // null where events take one thread
+    std::unique_ptr<SharedEvents<Real, Path>> shared_;  // null where events take one thread
     std::vector<ContactRecord> records_;
     std::vector<std::uint32_t> eventsOf_;  // each body in this step; empty in a usual one
 };

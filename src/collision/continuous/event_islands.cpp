@@ -20,8 +20,8 @@ constexpr std::size_t reportEvery = 64;
 }  // namespace
 
 template <class Real>
-bool EventIslands<Real>::split(const BodyView<Real>& bodies, const Neighbours& neighbours,
-                               std::span<const PairEvent> events, double way) {
+bool EventIslands::split(const BodyView<Real>& bodies, const Neighbours& neighbours,
+                         std::span<const PairEvent> events, double way) {
     if (bodies.moving.size() > rowCount_) {
         rowCount_ = std::max(bodies.moving.size(), rowCount_ + rowCount_ / 2);
         rows_ = std::make_unique<Row[]>(rowCount_);
@@ -40,9 +40,9 @@ bool EventIslands<Real>::split(const BodyView<Real>& bodies, const Neighbours& n
 }
 
 template <class Real>
-void EventIslands<Real>::flood(const BodyView<Real>& bodies, const Neighbours& neighbours,
-                               std::span<const PairEvent> events, double way, std::size_t most,
-                               std::vector<std::uint32_t>& claimed) {
+void EventIslands::flood(const BodyView<Real>& bodies, const Neighbours& neighbours,
+                         std::span<const PairEvent> events, double way, std::size_t most,
+                         std::vector<std::uint32_t>& claimed) {
     const auto& m = bodies.moving;
     constexpr double rounded = 1 + 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
     const auto near = [&](double a, double b, double halfA, double halfB) {
@@ -87,8 +87,7 @@ void EventIslands<Real>::flood(const BodyView<Real>& bodies, const Neighbours& n
 }
 
 /// Adds a body to the list of who claims it first.
-template <class Real>
-void EventIslands<Real>::claim(std::uint32_t row, std::vector<std::uint32_t>& claimed) {
+void EventIslands::claim(std::uint32_t row, std::vector<std::uint32_t>& claimed) {
     if (isClaimed(row)) return;
     std::uint32_t expected = none;
     if (!rows_[row].parent.compare_exchange_strong(expected, row, std::memory_order_acq_rel)) {
@@ -100,8 +99,7 @@ void EventIslands<Real>::claim(std::uint32_t row, std::vector<std::uint32_t>& cl
 }
 
 /// Halves the way to the root as it goes (Tarjan & van Leeuwen 1984).
-template <class Real>
-std::uint32_t EventIslands<Real>::rootOf(std::uint32_t row) const {
+std::uint32_t EventIslands::rootOf(std::uint32_t row) const {
     for (;;) {
         std::uint32_t parent = rows_[row].parent.load(std::memory_order_acquire);
         const std::uint32_t next = rows_[parent].parent.load(std::memory_order_acquire);
@@ -112,8 +110,7 @@ std::uint32_t EventIslands<Real>::rootOf(std::uint32_t row) const {
     }
 }
 
-template <class Real>
-void EventIslands<Real>::unite(std::uint32_t a, std::uint32_t b) {
+void EventIslands::unite(std::uint32_t a, std::uint32_t b) {
     for (;;) {
         std::uint32_t low = rootOf(a);
         std::uint32_t high = rootOf(b);
@@ -129,8 +126,7 @@ void EventIslands<Real>::unite(std::uint32_t a, std::uint32_t b) {
 /// Gives each island to the worker that met its first event, and so has its bodies in the cache; if
 /// that is uneven, the island with the most events first, each to the worker that has the fewest
 /// (Graham 1969). Returns whether they are spread well enough.
-template <class Real>
-bool EventIslands<Real>::distribute(std::span<const PairEvent> events) {
+bool EventIslands::distribute(std::span<const PairEvent> events) {
     const std::size_t workers = workers_.size();
     islands_.clear();
     loads_.assign(workers, 0);
@@ -163,16 +159,14 @@ bool EventIslands<Real>::distribute(std::span<const PairEvent> events) {
     return true;
 }
 
-template <class Real>
-void EventIslands<Real>::forget(unsigned worker) {
+void EventIslands::forget(unsigned worker) {
     for (const std::uint32_t row : workers_[worker].claimed) {
         rows_[row].parent.store(none, std::memory_order_release);
     }
     workers_[worker].claimed.clear();
 }
 
-template <class Real>
-std::size_t EventIslands<Real>::bytes() const {
+std::size_t EventIslands::bytes() const {
     std::size_t sum = rowCount_ * sizeof(Row) + islands_.capacity() * sizeof(Island) +
                       workers_.capacity() * sizeof(Worker) +
                       loads_.capacity() * sizeof(std::size_t);
@@ -183,7 +177,9 @@ std::size_t EventIslands<Real>::bytes() const {
     return sum;
 }
 
-template class EventIslands<double>;
-template class EventIslands<float>;
+template bool EventIslands::split(const BodyView<double>&, const Neighbours&,
+                                  std::span<const PairEvent>, double);
+template bool EventIslands::split(const BodyView<float>&, const Neighbours&,
+                                  std::span<const PairEvent>, double);
 
 }  // namespace quadrille

@@ -25,7 +25,6 @@ namespace quadrille {
 /// lock-free union and find with the lowest row as the root of each (as in Jaiganesh & Burtscher,
 /// "A high-performance connected components implementation for GPUs", 2018), so they do not
 /// depend on how the threads run. Each goes to one worker.
-template <class Real>
 class EventIslands {
   public:
     /// `team` must outlive this.
@@ -35,8 +34,14 @@ class EventIslands {
     /// less than their size and `way`, in px, apart. Returns whether the split is worth it: if most
     /// events belong to one island, or the islands have too many bodies, it is not. Either way,
     /// `forget` must be called on every worker before the next split.
+    template <class Real>
     bool split(const BodyView<Real>& bodies, const Neighbours& neighbours,
                std::span<const PairEvent> events, double way);
+
+    /// Bodies of islands, those of all workers together; which worker has them is another matter.
+    std::span<const std::uint32_t> claimedBy(unsigned worker) const {
+        return workers_[worker].claimed;
+    }
 
     std::span<const PairEvent> eventsOf(unsigned worker) const { return workers_[worker].events; }
 
@@ -80,6 +85,7 @@ class EventIslands {
     std::uint32_t rootOf(std::uint32_t row) const;
     void unite(std::uint32_t a, std::uint32_t b);
     void claim(std::uint32_t row, std::vector<std::uint32_t>& claimed);
+    template <class Real>
     void flood(const BodyView<Real>& bodies, const Neighbours& neighbours,
                std::span<const PairEvent> events, double way, std::size_t most,
                std::vector<std::uint32_t>& claimed);

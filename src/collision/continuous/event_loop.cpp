@@ -47,7 +47,7 @@ bool EventLoop<Real, Path>::resolve(const PairEvent& event, ContactRecord& recor
     Motion motion = motion_;
     if (isJammed(event, contact)) {
         jammed_ = true;
-        if (window_.share || (contact.deep && !event.withStatic())) return false;
+        if (window_.isShared() || (contact.deep && !event.withStatic())) return false;
         motion.restitution = 0;
     }
     EventOutcome x;

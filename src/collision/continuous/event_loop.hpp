@@ -4,23 +4,13 @@
 
 #include "collision/continuous/event_loop_state.hpp"
 #include "collision/continuous/event_search.hpp"
+#include "collision/continuous/event_window.hpp"
 #include "collision/continuous/pushed_groups.hpp"
 #include "collision/continuous/support_ends.hpp"
 #include "collision/law.hpp"
 #include "collision/rules/event_rules.hpp"
 
 namespace quadrille {
-
-/// The part of a run that a loop of events belongs to.
-struct EventWindow {
-    double to;           ///< s; the events until then are carried out
-    double horizon;      ///< s; those until then are found, and the partition covers the bodies
-    SpeedBounds bounds;  ///< for as long as these hold
-    std::uint64_t mostEvents;  ///< after so many, the loop ends
-    /// Other loops carry out the rest of the events; then what jams, and pushes bodies that may be
-    /// theirs, ends the loop.
-    bool share = false;
-};
 
 /// Carries events out in the order of time, and has the next ones of the bodies found that they
 /// change.
@@ -36,8 +26,8 @@ class EventLoop {
           motion_(search.motion()),
           state_(state),
           window_(window),
-          groups_(search, state),
-          resting_(search, state) {}
+          groups_(search, state, window),
+          resting_(search, state, window) {}
 
     /// Lets fall bodies that have changed, and what rested on them, and what rested on that, unless
     /// something holds them.
@@ -72,7 +62,7 @@ class EventLoop {
             ++carriedOut;
             ContactRecord record{};
             const bool changes = resolve(event, record);
-            if (jammed_ && window_.share) return false;
+            if (jammed_ && window_.isShared()) return false;
             if (!changes) continue;
             if (record.axes != 0) collided(event, record);
             releaseFromChanged(event.time);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -35,13 +36,18 @@ struct EventLoopState {
 
     PushedGroup groupA, groupB;
     std::vector<std::uint32_t> groupChanged;
-    std::vector<std::uint64_t> gathered;  ///< by which gathering a body was gathered last
+    /// By which gathering each body was gathered last. Loops that share out a step have one list:
+    /// each looks at its own bodies.
+    std::shared_ptr<std::vector<std::uint64_t>> gathered =
+        std::make_shared<std::vector<std::uint64_t>>();
     std::uint64_t gathering = 0;
+
+    std::vector<BodyRef> supports;
 
     std::size_t bytes() const {
         return queue.bytes() + bursts.bytes() + groupA.bytes() + groupB.bytes() +
                (changed.capacity() + 2 * separated.capacity() + groupChanged.capacity() +
-                2 * gathered.capacity()) *
+                2 * gathered->capacity() + supports.capacity()) *
                    sizeof(std::uint32_t);
     }
 };

@@ -1,6 +1,7 @@
 #include "collision/continuous/pushed_groups.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace quadrille {
 
@@ -9,18 +10,20 @@ namespace quadrille {
 template <class Real, class Path>
 void PushedGroups<Real, Path>::gather(const Motion& motion, std::uint32_t row, int axis,
                                       double sense, double now, PushedGroup& group) {
-    state_.gathered.resize(search_.rows());
-    state_.gathered[row] = ++state_.gathering;
+    std::vector<std::uint64_t>& gathered = *state_.gathered;
+    if (gathered.size() < search_.rows()) gathered.resize(search_.rows());
+    gathered[row] = ++state_.gathering;
     group.rows.assign(1, row);
     group.held = isHeld(motion, BodyRef::moving(row), axis, sense);
     for (std::size_t i = 0; i < group.rows.size() && !group.held; ++i) {
         const std::uint32_t a = group.rows[i];
         const Path p = motion.path(a, axis);
         for (const BodyRef b : search_.neighbours()[a]) {
-            if (!pushesAlong(motion, a, p, b, axis, sense, now)) continue;
+            // What another loop may be changing is too far away to touch.
+            if (!window_.maySee(b) || !pushesAlong(motion, a, p, b, axis, sense, now)) continue;
             group.held = group.held || isHeld(motion, b, axis, sense);
-            if (b.isStatic() || state_.gathered[b.row()] == state_.gathering) continue;
-            state_.gathered[b.row()] = state_.gathering;
+            if (b.isStatic() || gathered[b.row()] == state_.gathering) continue;
+            gathered[b.row()] = state_.gathering;
             group.rows.push_back(b.row());
         }
     }

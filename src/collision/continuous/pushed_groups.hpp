@@ -4,6 +4,7 @@
 
 #include "collision/continuous/event_loop_state.hpp"
 #include "collision/continuous/event_search.hpp"
+#include "collision/continuous/event_window.hpp"
 #include "collision/rules/event_rules.hpp"
 
 namespace quadrille {
@@ -17,8 +18,9 @@ class PushedGroups {
     using Search = EventSearch<Real, Path>;
     using Motion = typename Search::Motion;
 
-    /// Both must outlive this.
-    PushedGroups(const Search& search, EventLoopState& state) : search_(search), state_(state) {}
+    /// All must outlive this.
+    PushedGroups(const Search& search, EventLoopState& state, const EventWindow& window)
+        : search_(search), state_(state), window_(window) {}
 
     /// Carries out one axis of an event with the restitution of `motion`, and returns the impulse,
     /// kg px/s. All bodies that it moves are added to EventLoopState::groupChanged.
@@ -31,6 +33,7 @@ class PushedGroups {
 
     const Search& search_;
     EventLoopState& state_;
+    const EventWindow& window_;
 };
 
 }  // namespace quadrille

@@ -5,10 +5,10 @@
 
 namespace quadrille {
 
-template <class Real>
-bool SharedEvents<Real>::run(const BodyView<Real>& bodies, const Search& search,
-                             EventLoopState& whole, const EventWindow& window, double way,
-                             std::vector<ContactRecord>* records, ResolveCounts& counts) {
+template <class Real, class Path>
+bool SharedEvents<Real, Path>::run(const BodyView<Real>& bodies, const Search& search,
+                                   EventLoopState& whole, const EventWindow& window, double way,
+                                   std::vector<ContactRecord>* records, ResolveCounts& counts) {
     if (team_.workersFor(whole.queue.dueCount(), &Thresholds::events) == 1) return false;
     if (waiting_ > 0) {
         --waiting_;
@@ -25,10 +25,10 @@ bool SharedEvents<Real>::run(const BodyView<Real>& bodies, const Search& search,
     return true;
 }
 
-template <class Real>
-bool SharedEvents<Real>::tryRun(const BodyView<Real>& bodies, const Search& search,
-                                EventLoopState& whole, const EventWindow& window, double way,
-                                bool record) {
+template <class Real, class Path>
+bool SharedEvents<Real, Path>::tryRun(const BodyView<Real>& bodies, const Search& search,
+                                      EventLoopState& whole, const EventWindow& window, double way,
+                                      bool record) {
     due_.clear();
     whole.queue.forEachDue([&](const PairEvent& event) {
         if (search.isCurrent(event)) due_.push_back(event);
@@ -36,6 +36,8 @@ bool SharedEvents<Real>::tryRun(const BodyView<Real>& bodies, const Search& sear
     const bool split = islands_.split(bodies, search.neighbours(), due_, way);
     if (split) {
         const Bursts& bursts = whole.bursts.settled();
+        if (search.motion().restitution < 1) whole.gathered->resize(search.rows());
+        team_.run(team_.size(), [&](unsigned worker) { keep(search, worker); });
         team_.run(team_.size(), [&](unsigned worker) {
             runShare(search, whole, bursts, window, record, worker);
         });
@@ -46,17 +48,27 @@ bool SharedEvents<Real>::tryRun(const BodyView<Real>& bodies, const Search& sear
         islands_.forget(worker);
     });
     if (complete && allComplete(window.mostEvents)) return true;
-    if (split) undo(search);
+    if (split) undo(search, whole);
     return false;
 }
 
-template <class Real>
-void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& whole,
-                                  const Bursts& bursts, const EventWindow& window, bool record,
-                                  unsigned worker) {
-    Share& own = shares_[worker];
+/// Keeps what bodies of the islands were.
+template <class Real, class Path>
+void SharedEvents<Real, Path>::keep(const Search& search, unsigned worker) {
     const auto& m = search.motion().bodies.moving;
-    own.before.clear();
+    std::vector<Before>& before = shares_[worker].before;
+    before.clear();
+    for (const std::uint32_t row : islands_.claimedBy(worker)) {
+        const std::uint8_t rests = Path::falls ? m.rests[row] : 0;
+        before.push_back({row, search.stamp(row), m.anchors[row], rests});
+    }
+}
+
+template <class Real, class Path>
+void SharedEvents<Real, Path>::runShare(const Search& search, const EventLoopState& whole,
+                                        const Bursts& bursts, const EventWindow& window,
+                                        bool record, unsigned worker) {
+    Share& own = shares_[worker];
     own.across.clear();
     own.records.clear();
     own.counts = {};
@@ -65,16 +77,17 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
     own.state.instant = whole.instant;
     own.state.separated = whole.separated;
     own.state.bursts = bursts;
+    own.state.mayRest = whole.mayRest;
+    own.state.gathered = whole.gathered;
+    own.state.gathering = whole.gathering;
 
+    EventWindow part = window;
+    part.islands = &islands_;
+    part.worker = worker;
     const auto admit = [&](const PairEvent& event) {
         if (++own.counts.events > window.mostEvents) return false;
-        if (!islands_.belongsTo(event.a, worker)) return false;
-        own.before.push_back({event.a, search.stamp(event.a), m.anchors[event.a]});
-        if (event.withStatic()) return true;
-        const std::uint32_t b = event.b.row();
-        if (!islands_.belongsTo(b, worker)) return false;
-        own.before.push_back({b, search.stamp(b), m.anchors[b]});
-        return true;
+        return part.mayChange(BodyRef::moving(event.a)) &&
+               (event.withStatic() || part.mayChange(event.b));
     };
     const auto collided = [&](const PairEvent& event, const ContactRecord& made) {
         ++own.counts.contacts;
@@ -86,29 +99,26 @@ void SharedEvents<Real>::runShare(const Search& search, const EventLoopState& wh
         own.records.push_back({follows ? event : own.records.back().after, 0, made});
     };
     const auto othersOf = [&](std::uint32_t row) -> std::span<const BodyRef> {
+        islands_.markChanged(row);
         own.others.clear();
         for (const BodyRef b : search.neighbours()[row]) {
-            if (!b.isStatic() && islands_.belongsToAnother(b.row(), worker)) {
-                own.across.push_back({row, search.stamp(row), b});
-            } else {
+            if (part.maySee(b)) {
                 own.others.push_back(b);
+            } else {
+                own.across.push_back({row, search.stamp(row), b});
             }
         }
         return own.others;
     };
-    EventWindow part = window;
-    part.share = true;
     Loop loop(search, own.state, part);
     own.complete = loop.run(admit, collided, othersOf);
-    for (const Before& before : own.before) {
-        if (search.stamp(before.row) != before.stamp) islands_.markChanged(before.row);
-    }
 }
 
 /// Finds what bodies of this worker do after the step with those of others. Of two bodies that both
 /// have changed, the first one's worker does it.
-template <class Real>
-void SharedEvents<Real>::findAcross(const Search& search, const EventWindow& window, Share& share) {
+template <class Real, class Path>
+void SharedEvents<Real, Path>::findAcross(const Search& search, const EventWindow& window,
+                                          Share& share) {
     for (const Across& across : share.across) {
         if (search.stamp(across.row) != across.stamp) continue;  // it comes again
         const std::uint32_t other = across.other.row();
@@ -119,8 +129,8 @@ void SharedEvents<Real>::findAcross(const Search& search, const EventWindow& win
     share.complete = share.state.queue.empty();
 }
 
-template <class Real>
-bool SharedEvents<Real>::allComplete(std::uint64_t mostEvents) const {
+template <class Real, class Path>
+bool SharedEvents<Real, Path>::allComplete(std::uint64_t mostEvents) const {
     std::uint64_t events = 0;
     for (const Share& share : shares_) {
         if (!share.complete) return false;
@@ -129,29 +139,33 @@ bool SharedEvents<Real>::allComplete(std::uint64_t mostEvents) const {
     return events <= mostEvents;
 }
 
-template <class Real>
-void SharedEvents<Real>::undo(const Search& search) {
+template <class Real, class Path>
+void SharedEvents<Real, Path>::undo(const Search& search, EventLoopState& whole) {
     const auto& m = search.motion().bodies.moving;
     for (const Share& share : shares_) {
-        for (std::size_t i = share.before.size(); i-- > 0;) {
-            const Before& before = share.before[i];
+        whole.gathering = std::max(whole.gathering, share.state.gathering);
+        for (const Before& before : share.before) {
+            if (search.stamp(before.row) == before.stamp) continue;
             m.anchors[before.row] = before.anchor;
             m.vx[before.row] = before.anchor.vx;
             m.vy[before.row] = before.anchor.vy;
+            if constexpr (Path::falls) m.rests[before.row] = before.rests;
             search.restore(before.row, before.stamp);
         }
     }
 }
 
-template <class Real>
-void SharedEvents<Real>::finish(EventLoopState& whole, std::vector<ContactRecord>* records,
-                                ResolveCounts& counts) {
+template <class Real, class Path>
+void SharedEvents<Real, Path>::finish(EventLoopState& whole, std::vector<ContactRecord>* records,
+                                      ResolveCounts& counts) {
     whole.queue.dropDue();
     records_.clear();
     for (Share& share : shares_) {
         EventLoopState& state = share.state;
         whole.queue.take(state.queue);
         whole.bursts.take(state.bursts);
+        whole.mayRest = whole.mayRest || state.mayRest;
+        whole.gathering = std::max(whole.gathering, state.gathering);
         counts.events += share.counts.events;
         counts.contacts += share.counts.contacts;
         counts.collisions += share.counts.collisions;
@@ -177,8 +191,8 @@ void SharedEvents<Real>::finish(EventLoopState& whole, std::vector<ContactRecord
     for (const Recorded& recorded : records_) records->push_back(recorded.record);
 }
 
-template <class Real>
-std::size_t SharedEvents<Real>::bytes() const {
+template <class Real, class Path>
+std::size_t SharedEvents<Real, Path>::bytes() const {
     std::size_t sum = islands_.bytes() + shares_.capacity() * sizeof(Share) +
                       due_.capacity() * sizeof(PairEvent) + records_.capacity() * sizeof(Recorded);
     for (const Share& share : shares_) {
@@ -190,7 +204,9 @@ std::size_t SharedEvents<Real>::bytes() const {
     return sum;
 }
 
-template class SharedEvents<double>;
-template class SharedEvents<float>;
+template class SharedEvents<double, StraightPath>;
+template class SharedEvents<double, FallingPath>;
+template class SharedEvents<float, StraightPath>;
+template class SharedEvents<float, FallingPath>;
 
 }  // namespace quadrille

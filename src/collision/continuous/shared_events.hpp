@@ -12,22 +12,22 @@
 
 namespace quadrille {
 
-/// Carries out the events of a step on several threads, for collisions that lose no energy, without
-/// gravity; bit for bit as one EventLoop does.
+/// Carries out the events of a step on several threads, bit for bit as one EventLoop does.
 ///
 /// 1. The events known when the step begins are split by islands (EventIslands).
 /// 2. Each worker runs a loop of its own over the events of its islands. It leaves out what its
 ///    bodies may do with those of other workers: that happens after the step.
 /// 3. When all are done, these events are found from where the bodies are then.
 ///
-/// All of this stands on how far a body can get in a step. Equal masses exchange velocities and
-/// walls mirror them, so nothing gets faster than the fastest body was; but positions are rounded,
-/// and a heavy body may hit a light one. So every change of a body is checked against the bound,
-/// and should one go too far, what has been done is undone.
-template <class Real>
+/// All of this stands on how far a body can get in a step. Collisions of equal masses, and with
+/// what holds, make nothing faster than the fastest body was, and gravity does so by a bounded
+/// amount; but positions are rounded, and a heavy body may hit a light one. So every change of a
+/// body is checked against the bound, and should one go too far, what has been done is undone.
+/// Bodies that push each other, or rest on each other, touch, and so belong to one island.
+template <class Real, class Path>
 class SharedEvents {
   public:
-    using Search = EventSearch<Real, StraightPath>;
+    using Search = EventSearch<Real, Path>;
 
     /// `team` must outlive this.
     explicit SharedEvents(const ThreadTeam& team)
@@ -44,12 +44,13 @@ class SharedEvents {
     std::size_t bytes() const;
 
   private:
-    using Loop = EventLoop<Real, StraightPath>;
+    using Loop = EventLoop<Real, Path>;
 
-    /// A body as it was before an event.
+    /// A body of an island as it was before.
     struct Before {
         std::uint32_t row, stamp;
         Anchor<Real> anchor;
+        std::uint8_t rests;
     };
     /// A body that was changed, and one of another worker that it may meet after the step.
     struct Across {
@@ -73,15 +74,16 @@ class SharedEvents {
 
     bool tryRun(const BodyView<Real>& bodies, const Search& search, EventLoopState& whole,
                 const EventWindow& window, double way, bool record);
+    void keep(const Search& search, unsigned worker);
     void runShare(const Search& search, const EventLoopState& whole, const Bursts& bursts,
                   const EventWindow& window, bool record, unsigned worker);
     void findAcross(const Search& search, const EventWindow& window, Share& share);
     bool allComplete(std::uint64_t mostEvents) const;
-    void undo(const Search& search);
+    void undo(const Search& search, EventLoopState& whole);
     void finish(EventLoopState& whole, std::vector<ContactRecord>* records, ResolveCounts& counts);
 
     const ThreadTeam& team_;
-    EventIslands<Real> islands_;
+    EventIslands islands_;
     std::vector<Share> shares_;
     std::vector<PairEvent> due_;
     std::vector<Recorded> records_;

@@ -2,11 +2,23 @@
 
 namespace quadrille {
 
+/// Bodies that may hold one up; those that another loop may be changing are too far away for it.
+template <class Real, class Path>
+std::span<const BodyRef> SupportEnds<Real, Path>::supportsOf(std::uint32_t row) {
+    const auto all = search_.neighbours()[row];
+    if (!window_.isShared()) return all;
+    state_.supports.clear();
+    for (const BodyRef b : all) {
+        if (window_.maySee(b)) state_.supports.push_back(b);
+    }
+    return state_.supports;
+}
+
 /// Lets a body fall unless something holds it, and notes that it has changed.
 template <class Real, class Path>
 bool SupportEnds<Real, Path>::release(std::uint32_t row, int axis, double now) {
-    const auto others = search_.neighbours()[row];
-    if (!quadrille::release(search_.motion(), row, others, axis, now)) return false;
+    if (!search_.motion().rests(row, axis)) return false;
+    if (!quadrille::release(search_.motion(), row, supportsOf(row), axis, now)) return false;
     search_.changed(row);
     state_.changed.push_back(row);
     return true;
@@ -28,7 +40,7 @@ void SupportEnds<Real, Path>::releaseFromChanged(double now) {
             const std::uint32_t row = state_.changed[i];
             release(row, axis, now);
             for (const BodyRef b : search_.neighbours()[row]) {
-                if (!b.isStatic() && mayLieOn(search_.motion(), b.row(), row, axis, now)) {
+                if (window_.mayChange(b) && mayLieOn(search_.motion(), b.row(), row, axis, now)) {
                     release(b.row(), axis, now);
                 }
             }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "collision/continuous/event_loop_state.hpp"
 #include "collision/continuous/event_search.hpp"
+#include "collision/continuous/event_window.hpp"
 #include "collision/rules/rest_rules.hpp"
 
 namespace quadrille {
@@ -14,8 +16,9 @@ class SupportEnds {
   public:
     using Search = EventSearch<Real, Path>;
 
-    /// Both must outlive this.
-    SupportEnds(const Search& search, EventLoopState& state) : search_(search), state_(state) {}
+    /// All must outlive this.
+    SupportEnds(const Search& search, EventLoopState& state, const EventWindow& window)
+        : search_(search), state_(state), window_(window) {}
 
     /// Carries out the end of a support. Returns whether any body falls.
     bool release(const PairEvent& event);
@@ -24,10 +27,12 @@ class SupportEnds {
     void releaseFromChanged(double now);
 
   private:
+    std::span<const BodyRef> supportsOf(std::uint32_t row);
     bool release(std::uint32_t row, int axis, double now);
 
     const Search& search_;
     EventLoopState& state_;
+    const EventWindow& window_;
 };
 
 }  // namespace quadrille

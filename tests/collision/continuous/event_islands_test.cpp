@@ -44,10 +44,10 @@ struct Split {
     ThreadTeam team;
     std::unique_ptr<Partitioner<double>> partitioner;
     Neighbours neighbours;
-    EventIslands<double> islands;
+    EventIslands islands;
 };
 
-int workerOf(const EventIslands<double>& islands, std::uint32_t row, unsigned workers) {
+int workerOf(const EventIslands& islands, std::uint32_t row, unsigned workers) {
     for (unsigned w = 0; w < workers; ++w) {
         if (islands.belongsTo(row, w)) return static_cast<int>(w);
     }
