@@ -55,7 +55,7 @@ class Simulation {
   public:
     /// Throws Error for impossible values, NotAvailable for combinations that this version cannot
     /// run and, without SimulationConfig::fallback, DeviceError if a device is missing.
-    explicit Simulation(World world, SimulationConfig config = {});
+    explicit Simulation(World world, const SimulationConfig& config = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;

@@ -51,7 +51,7 @@ concept BodyComponent =
 /// device, also on a const World; so one thread looks first, and then any number may at a time.
 class World {
   public:
-    explicit World(WorldConfig config = {});
+    explicit World(const WorldConfig& config = {});
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;

@@ -142,8 +142,8 @@ class BodyStore {
 
     BodyStore() = default;
     ~BodyStore() { newestIs(nullptr); }
-    /// Brings the newest here, and leaves the other one empty.
-    BodyStore(BodyStore&& other);
+    /// Brings the newest here, and leaves the other one empty. Throws as read() does.
+    BodyStore(BodyStore&& other);  // NOLINT(performance-noexcept-move-constructor)
     BodyStore(const BodyStore&) = delete;
     BodyStore& operator=(const BodyStore&) = delete;
 

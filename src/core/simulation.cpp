@@ -126,7 +126,7 @@ struct Simulation::Impl {
     }
 };
 
-Simulation::Simulation(World world, SimulationConfig config) {
+Simulation::Simulation(World world, const SimulationConfig& config) {
     validate(config);
     impl_ = std::make_unique<Impl>(std::move(world), config);
 }

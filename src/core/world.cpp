@@ -29,7 +29,7 @@ void requireFits(Entity entity, const char* what, double value, Precision precis
 
 }  // namespace
 
-World::World(WorldConfig config)
+World::World(const WorldConfig& config)
     : config_(config), random_(config.seed), store_(std::make_unique<BodyStore>()) {
     if (!config.size.allFinite() || !(config.size.minCoeff() > 0)) {
         throw Error("world: size must be finite and positive");
