@@ -23,6 +23,7 @@ namespace {
 
 using reference::Box;
 using reference::Oracle;
+using reference::Ties;
 
 /// Static bodies first: their order among themselves is all that the reference's ids need.
 std::vector<Box> boxesOf(const World& world) {
@@ -36,7 +37,8 @@ std::vector<Box> boxesOf(const World& world) {
             const std::size_t k = ranksOfStatic.rowAt(place);
             boxes.push_back({.position = Vec2(f.x[k], f.y[k]),
                              .size = 2 * Vec2(f.halfWidth[k], f.halfHeight[k]),
-                             .isStatic = true});
+                             .isStatic = true,
+                             .label = f.entity[k]});
         }
         const CreationRanks ranks(m.created, m.size());
         for (std::size_t place = 0; place < m.size(); ++place) {
@@ -44,7 +46,8 @@ std::vector<Box> boxesOf(const World& world) {
             boxes.push_back({.position = Vec2(m.x[i], m.y[i]),
                              .velocity = Vec2(m.vx[i], m.vy[i]),
                              .size = 2 * Vec2(m.halfWidth[i], m.halfHeight[i]),
-                             .mass = static_cast<double>(m.mass[i])});
+                             .mass = static_cast<double>(m.mass[i]),
+                             .label = m.entity[i]});
         }
     });
     return boxes;
@@ -117,8 +120,10 @@ struct ErrorMeter::Impl {
     explicit Impl(Simulation& s)
         : simulation(s),
           boxes(boxesOf(s.world())),
-          oracle(inReference(
-              [&] { return Oracle(boxes, s.config().step.gravity, s.config().step.restitution); })),
+          oracle(inReference([&] {
+              return Oracle(boxes, s.config().step.gravity, s.config().step.restitution,
+                            Ties::ByLabels);
+          })),
           begin(s.time()),
           start(statesOf(s.world())),
           length(meanSide(boxes)) {
@@ -224,6 +229,8 @@ ErrorMetrics ErrorMeter::metrics() const {
     ErrorMetrics result{
         .horizon = m.oracle.time(),
         .events = matchEvents(m.oracle.events(), m.measured, 2 * m.simulation.config().step.dt),
+        .pushedCollisions = m.oracle.choices().pushed,
+        .jammedCollisions = m.oracle.choices().jammed,
         .bodies = exact.size(),
         .wrongBodies = wrongBodies(exact, measured, tolerance),
         .velocityTolerance = tolerance,

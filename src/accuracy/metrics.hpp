@@ -69,6 +69,9 @@ double speedDrift(std::span<const BodyState> before, std::span<const BodyState> 
 struct ErrorMetrics {
     double horizon = 0;  ///< s that were compared
     EventMatch events;
+    /// Collisions of the reference whose outcome is a rule: of bodies that others hold or that push
+    /// others along (restitution below 1), and of jammed ones.
+    std::uint64_t pushedCollisions = 0, jammedCollisions = 0;
 
     std::size_t bodies = 0;        ///< that move
     std::size_t wrongBodies = 0;   ///< at the end

@@ -30,6 +30,7 @@ Json errorJson(const accuracy::ErrorMetrics& m) {
     json["precision"] = m.events.precision();
     json["f1"] = m.events.f1();
     json["rate_bias"] = orNull(m.events.rateBias());
+    json["by_rule"] = {{"pushed", m.pushedCollisions}, {"jammed", m.jammedCollisions}};
     json["wrong_bodies"] = m.wrongBodies;
     json["wrong_body_fraction"] = m.wrongBodyFraction();
     json["velocity_tolerance"] = m.velocityTolerance;
@@ -64,6 +65,11 @@ void printError(std::ostream& out, const Json& json) {
         << json["reference"].get<std::string>() << '\n';
     row("collisions", json["collisions"].dump() + ", exact " + json["exact_collisions"].dump() +
                           ", bias " + number(json["rate_bias"]));
+    const Json& byRule = json["by_rule"];
+    if (byRule["pushed"] > 0 || byRule["jammed"] > 0) {
+        row("by rule", byRule["pushed"].dump() + " pushed, " + byRule["jammed"].dump() +
+                           " jammed of the exact ones: what follows depends on a choice");
+    }
     row("recall", number(json["recall"], ", precision ") + number(json["precision"], ", F1 ") +
                       number(json["f1"]));
     row("wrong bodies",

@@ -154,7 +154,7 @@ std::optional<Crossing<Rational>> LatticeModel::crossing(std::int64_t i, const C
     return next;
 }
 
-bool LatticeModel::collide(std::int64_t i, std::int64_t j, int axis, const Rational&,
+bool LatticeModel::collide(std::int64_t i, std::int64_t j, int axis, const Rational&, const Near&,
                            std::vector<std::int64_t>& changed) {
     for (std::size_t k = 0; k < 2; ++k) {
         if ((axis & (int(k) + 1)) == 0) continue;

@@ -29,8 +29,9 @@ class LatticeModel {
     std::optional<Crossing<Rational>> crossing(std::int64_t i, const Cell& cell,
                                                const Rational& now) const;
     std::optional<Rational> release(std::int64_t, const Rational&) const { return std::nullopt; }
-    bool collide(std::int64_t i, std::int64_t j, int axis, const Rational& now,
+    bool collide(std::int64_t i, std::int64_t j, int axis, const Rational& now, const Near&,
                  std::vector<std::int64_t>& changed);
+    std::uint32_t priority(std::int64_t, std::int64_t) const { return 0; }
     void letGo(std::int64_t, const Rational&, std::vector<std::int64_t>&) {}
 
     /// A double as a time. Throws std::overflow_error if it does not fit.

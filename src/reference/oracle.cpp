@@ -11,8 +11,8 @@
 namespace quadrille::reference {
 
 struct Oracle::Impl {
-    Impl(std::vector<Box> given, const Vec2& gravity, double restitution)
-        : boxes(std::move(given)), model(boxes, gravity, restitution), scheduler(model, 0) {}
+    Impl(std::vector<Box> given, const Vec2& gravity, double restitution, Ties ties)
+        : boxes(std::move(given)), model(boxes, gravity, restitution, ties), scheduler(model, 0) {}
 
     std::vector<Box> boxes;
     TrackModel model;
@@ -20,13 +20,13 @@ struct Oracle::Impl {
     double now = 0;
 };
 
-Oracle::Oracle(std::vector<Box> boxes, const Vec2& gravity, double restitution) {
+Oracle::Oracle(std::vector<Box> boxes, const Vec2& gravity, double restitution, Ties ties) {
     validate(boxes);
     if (!gravity.allFinite()) throw std::invalid_argument("gravity is not finite");
     if (!(restitution >= 0 && restitution <= 1)) {
         throw std::invalid_argument("restitution is not in [0, 1]");
     }
-    impl_ = std::make_unique<Impl>(std::move(boxes), gravity, restitution);
+    impl_ = std::make_unique<Impl>(std::move(boxes), gravity, restitution, ties);
 }
 Oracle::~Oracle() = default;
 Oracle::Oracle(Oracle&&) noexcept = default;
@@ -53,6 +53,8 @@ std::vector<Box> Oracle::state() const {
     }
     return boxes;
 }
+
+const Oracle::Choices& Oracle::choices() const { return impl_->model.choices(); }
 
 const std::vector<Event>& Oracle::events() const { return impl_->scheduler.events(); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <stdexcept>
@@ -13,6 +14,9 @@
 #include "reference/oracle.hpp"
 
 namespace quadrille::reference {
+
+/// The moving boxes that may touch one, in the order of ids.
+using Near = std::function<std::vector<std::int64_t>(std::int64_t)>;
 
 /// A collision to come.
 template <class Time>
@@ -35,12 +39,15 @@ struct Crossing {
 ///     Time                                         ordered by <
 ///     std::int64_t movingCount(), staticCount()
 ///     Cell cellAtStart(i)
+///     std::uint32_t priority(i, j)                 of collisions at one instant, the lowest first
 ///     std::optional<Hit<Time>> hit(i, j, now)      the next collision from `now` on; j < 0: static
 ///     std::optional<Crossing<Time>> crossing(i, cell, now)
 ///     std::optional<Time> release(i, now)          when a resting box slides off its support
-///     bool collide(i, j, axis, now, changed)       true if it counts as a collision; appends the
+///     bool collide(i, j, axis, now, near, changed) true if it counts as a collision; appends the
 ///     void letGo(i, now, changed)                  boxes whose trajectory is a new one
 ///     double seconds(time)
+///
+/// `near(i)` gives the moving boxes that may touch i, itself included, in the order of ids.
 ///
 /// Queued events name the trajectories that they were computed from by a version; events of
 /// trajectories that have changed since are dropped when they come up.
@@ -81,12 +88,14 @@ class Scheduler {
         int axis;
         std::uint32_t versionI;
         std::uint32_t versionJ;
+        std::uint32_t priority = 0;  // of a collision: the lower, the earlier
 
         // The queue has the greatest on top.
         bool operator<(const Entry& other) const {
             if (other.time < time) return true;
             if (time < other.time) return false;
-            return std::tie(other.kind, other.i, other.j, other.axis) < std::tie(kind, i, j, axis);
+            return std::tie(other.kind, other.priority, other.i, other.j, other.axis) <
+                   std::tie(kind, priority, i, j, axis);
         }
     };
 
@@ -111,7 +120,9 @@ class Scheduler {
         changed_.clear();
         switch (entry.kind) {
             case Kind::Collision:
-                if (model_.collide(entry.i, entry.j, entry.axis, now_, changed_)) {
+                if (model_.collide(
+                        entry.i, entry.j, entry.axis, now_,
+                        [this](std::int64_t i) { return near(i); }, changed_)) {
                     events_.push_back({model_.seconds(now_), entry.i, entry.j, entry.axis});
                 }
                 break;
@@ -124,6 +135,15 @@ class Scheduler {
         }
         for (const std::int64_t body : changed_) ++versions_[std::size_t(body)];
         for (const std::int64_t body : changed_) predict(body, -1);
+    }
+
+    std::vector<std::int64_t> near(std::int64_t i) const {
+        const Cell& cell = cells_[std::size_t(i)];
+        std::vector<std::int64_t> bodies;
+        grid_.each({cell.x - 1, cell.y - 1}, {cell.x + 1, cell.y + 1},
+                   [&](std::int64_t other) { bodies.push_back(other); });
+        std::sort(bodies.begin(), bodies.end());
+        return bodies;
     }
 
     /// Moves a box to the next cell and meets the boxes of the three cells that come near.
@@ -160,7 +180,8 @@ class Scheduler {
         const std::int64_t i = b < 0 ? a : std::min(a, b);
         const std::int64_t j = b < 0 ? b : std::max(a, b);
         if (const auto hit = model_.hit(i, j, now_)) {
-            queue_.push({hit->time, Kind::Collision, i, j, hit->axis, version(i), version(j)});
+            queue_.push({hit->time, Kind::Collision, i, j, hit->axis, version(i), version(j),
+                         model_.priority(i, j)});
         }
     }
 

@@ -9,19 +9,23 @@ namespace quadrille::reference {
 namespace {
 
 constexpr double restSpeed = Oracle::restSpeed;
-constexpr double creepSpeed = Oracle::creepSpeed;
 
 /// Rounding of positions, relative to their magnitude; some thousand ulps, as errors add up.
 constexpr double relativeRounding = 1e-12;
 
 }  // namespace
 
-TrackModel::TrackModel(const std::vector<Box>& boxes, const Vec2& gravity, double restitution)
-    : gravity_{gravity.x(), gravity.y()}, restitution_(restitution), cellWidth_(cellWidth(boxes)) {
+TrackModel::TrackModel(const std::vector<Box>& boxes, const Vec2& gravity, double restitution,
+                       Ties ties)
+    : gravity_{gravity.x(), gravity.y()},
+      restitution_(restitution),
+      ties_(ties),
+      cellWidth_(cellWidth(boxes)) {
     for (const Box& box : boxes) {
         Body made;
         made.half = box.size / 2;
         made.mass = box.mass;
+        made.label = box.label;
         for (int k = 0; k < 2; ++k) {
             Track& track = made.track[std::size_t(k)];
             track.position = box.position[k];
@@ -36,6 +40,15 @@ TrackModel::TrackModel(const std::vector<Box>& boxes, const Vec2& gravity, doubl
 Cell TrackModel::cellAtStart(std::int64_t i) const {
     const Vec2 at = position(i, 0) / cellWidth_;
     return {std::int64_t(std::floor(at.x())), std::int64_t(std::floor(at.y()))};
+}
+
+/// Lower is earlier, at one instant.
+std::uint32_t TrackModel::priority(std::int64_t i, std::int64_t j) const {
+    if (ties_ == Ties::ByIds) return 0;
+    std::uint64_t bits = (std::uint64_t(body(i).label) << 32) | body(j).label;
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+    return std::uint32_t((bits ^ (bits >> 31)) >> 32);
 }
 
 Vec2 TrackModel::position(std::int64_t i, double time) const {
@@ -60,12 +73,26 @@ TrackModel::Meeting TrackModel::meet(std::int64_t i, std::int64_t j, int k, doub
             .contact = contact,
             .approach = -sign * seen.speed(now),
             .pressure = -sign * seen.acceleration,
-            .rounding = relativeRounding * (std::abs(a.at(now)) + std::abs(b.at(now)) + contact)};
+            .rounding = Oracle::touchDistance * contact +
+                        relativeRounding * (std::abs(a.at(now)) + std::abs(b.at(now)) + contact),
+            .creep = creep(a.speed(now), b.speed(now), restitution_)};
 }
 
-bool TrackModel::collides(const Meeting& meeting) const {
-    if (meeting.pressure > 0) return meeting.approach > -restSpeed;
-    return meeting.approach > (restitution_ < 1 ? creepSpeed : 0);
+/// Approaches up to this, px/s, come from rounding.
+double TrackModel::creep(double va, double vb, double restitution) const {
+    constexpr double eps = 1e-15;
+    if (restitution == 1) return 0;
+    return std::max(Oracle::creepSpeed, eps * (std::abs(va) + std::abs(vb)));
+}
+
+/// Whether the rebound, pressed together as the pair is, does not rise above rounding.
+bool TrackModel::comesToRest(const Meeting& meeting, double restitution) const {
+    const double parting = meeting.approach > 0 ? restitution * meeting.approach : meeting.approach;
+    return meeting.pressure > 0 && parting * parting <= 2 * meeting.pressure * meeting.rounding;
+}
+
+bool TrackModel::collides(const Meeting& meeting, double creeping) const {
+    return comesToRest(meeting, restitution_) || meeting.approach > creeping;
 }
 
 /// What happens to a pair that overlaps from before `now` until `until`, or that is pressed
@@ -78,12 +105,13 @@ std::optional<Hit<double>> TrackModel::touching(std::int64_t i, std::int64_t j, 
     };
     const auto byRounding = [&](int k) { return depth(k) <= meetings[std::size_t(k)].rounding; };
     if (byRounding(0) && byRounding(1)) {
-        if (collides(meetings[0]) && collides(meetings[1])) return Hit<double>{now, 3};
+        if (collides(meetings[0], meetings[0].creep) && collides(meetings[1], meetings[1].creep))
+            return Hit<double>{now, 3};
         return std::nullopt;
     }
     const int k = depth(0) <= depth(1) ? 0 : 1;
     const Meeting& least = meetings[std::size_t(k)];
-    if (collides(least)) return Hit<double>{now, k + 1};
+    if (collides(least, least.creep)) return Hit<double>{now, k + 1};
     if (least.pressure > 0) {
         // They part, and would fall back inside each other: look again at the turning point.
         const double turn = now - least.approach / least.pressure;
@@ -99,12 +127,16 @@ std::optional<Hit<double>> TrackModel::hit(std::int64_t i, std::int64_t j, doubl
     std::array<Spans, 2> spans;
     for (int k = 0; k < 2; ++k) {
         const Track seen = relative(a.track[std::size_t(k)], b.track[std::size_t(k)]);
-        spans[std::size_t(k)] = inside(seen, contact[k]);
+        // Rounding must not make a box trip over the edges of the floor that it slides on.
+        const bool falls = gravity_[0] != 0 || gravity_[1] != 0;
+        const bool alongside = falls && seen.velocity == 0 && seen.acceleration == 0;
+        const double room = alongside ? meet(i, j, k, now).rounding : 0;
+        spans[std::size_t(k)] = inside(seen, contact[k] - room);
         if (seen.acceleration != 0) {
             // At rest on each other up to rounding: that is a contact, not a flight of 1e-16 px.
             const Meeting along = meet(i, j, k, now);
             const Meeting across = meet(i, j, 1 - k, now);
-            if (along.pressure > 0 && std::abs(along.approach) < restSpeed &&
+            if (comesToRest(along, restitution_) &&
                 std::abs(along.distance - along.contact) <= along.rounding &&
                 across.distance < across.contact - across.rounding) {
                 return Hit<double>{now, k + 1};
@@ -121,7 +153,10 @@ std::optional<Hit<double>> TrackModel::hit(std::int64_t i, std::int64_t j, doubl
                 continue;
             }
             const int axis = x.low > y.low ? 1 : x.low < y.low ? 2 : 3;
-            if (low == now && axis < 3 && !collides(meet(i, j, axis - 1, now))) continue;
+            if (low == now && axis < 3) {
+                const Meeting along = meet(i, j, axis - 1, now);
+                if (!collides(along, along.creep)) continue;
+            }
             return Hit<double>{low, axis};
         }
     }
@@ -161,58 +196,198 @@ std::optional<double> TrackModel::release(std::int64_t i, double now) const {
 
 // ---- collision
 
-bool TrackModel::collide(std::int64_t i, std::int64_t j, int axis, double now,
+bool TrackModel::collide(std::int64_t i, std::int64_t j, int axis, double now, const Near& near,
                          std::vector<std::int64_t>& changed) {
+    Manner manner{now, restitution_, near};
+    const int only = axis - 1;
+    bool deep = false;
+    if (axis < 3) {
+        const Meeting meeting = meet(i, j, only, now);
+        deep = meeting.contact - meeting.distance > meeting.rounding;
+    }
+    bool passes = deep && restitution_ == 1 && separatedAlready(i, j, now);
+    if (!passes && isJammed(i, j, axis, deep, now)) {
+        ++choices_.jammed;
+        manner.restitution = 0;
+        passes = deep && j >= 0;
+    }
     bool counts = false;
     bool anything = false;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 2 && !passes; ++k) {
         if ((axis & (k + 1)) == 0) continue;
-        const Outcome outcome = collideAlong(k, i, j, now, changed);
+        const Outcome outcome = collideAlong(k, i, j, manner, changed);
         counts |= outcome == Outcome::Collision;
         anything |= outcome != Outcome::Nothing;
     }
-    // The prediction is used up even if nothing came of it.
-    if (!anything) changed.push_back(i);
+    // The prediction is used up even if nothing came of it; but who passes is not asked again.
+    if (!anything && !passes) changed.push_back(i);
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     return counts;
 }
 
-TrackModel::Outcome TrackModel::collideAlong(int k, std::int64_t i, std::int64_t j, double now,
+/// Whether the pair, deep inside each other, has collided at this instant.
+bool TrackModel::separatedAlready(std::int64_t i, std::int64_t j, double now) {
+    if (now != instant_) separated_.clear();
+    instant_ = now;
+    return !separated_.insert({i, j}).second;
+}
+
+/// Counts the collision, and says whether one of the boxes has too many.
+bool TrackModel::isJammed(std::int64_t i, std::int64_t j, int axis, bool deep, double now) {
+    const auto cell = [](double time, double perSecond) { return std::floor(time * perSecond); };
+    bool jammed = false;
+    double since = 0;  // for how long the pair has been touching at most, s
+    for (int k = 0; k < 2; ++k) {
+        if ((axis & (k + 1)) == 0) continue;
+        const Meeting meeting = meet(i, j, k, now);
+        const double speed = std::abs(meeting.approach);
+        since =
+            std::max(since, speed == 0 ? never : Oracle::touchDistance * meeting.contact / speed);
+    }
+    for (const std::int64_t id : {i, j}) {
+        if (id < 0) continue;
+        Body& box = moving(id);
+        if (cell(now, 0x1p30) != cell(box.last, 0x1p30)) box.atOnce = box.deepAtOnce = 0;
+        const bool fresh = cell(now, 0x1p15) != cell(box.last, 0x1p15);
+        if (fresh) box.touching = 0;
+        ++box.atOnce;
+        box.deepAtOnce += deep;
+        box.touching += !fresh && restitution_ == 1 && now - box.last <= since;
+        box.last = now;
+        jammed |= box.atOnce > Oracle::mostAtOnce || box.touching > Oracle::mostAtOnce ||
+                  (deep && box.deepAtOnce > Oracle::mostDeepAtOnce);
+    }
+    return jammed;
+}
+
+TrackModel::Outcome TrackModel::collideAlong(int k, std::int64_t i, std::int64_t j,
+                                             const Manner& manner,
                                              std::vector<std::int64_t>& changed) {
+    const double now = manner.now;
     const Meeting meeting = meet(i, j, k, now);
-    if (!collides(meeting)) return Outcome::Nothing;
-    const Outcome outcome =
-        meeting.approach >= restSpeed || (restitution_ == 1 && meeting.pressure <= 0)
-            ? Outcome::Collision
-            : Outcome::Contact;
-    const double rebound = restitution_ * std::max(meeting.approach, 0.0);
-    if (rebound < restSpeed && (restitution_ < 1 || meeting.pressure > 0)) {
+    const Track a = body(i).track[std::size_t(k)];
+    const Track b = body(j).track[std::size_t(k)];
+    if (comesToRest(meeting, manner.restitution)) {
         settle(k, i, j, meeting, now, changed);
-        return outcome;
+        const bool hits =
+            meeting.approach * meeting.approach > 2 * meeting.pressure * meeting.rounding;
+        return hits ? Outcome::Collision : Outcome::Contact;
+    }
+    if (!(meeting.approach > creep(a.speed(now), b.speed(now), manner.restitution))) {
+        return Outcome::Nothing;
+    }
+    if (manner.restitution < 1) {
+        push(k, i, j, meeting, manner, changed);
+        return meeting.approach >= restSpeed ? Outcome::Collision : Outcome::Contact;
     }
     changed.push_back(i);
     if (j < 0) {
         bounceOff(k, i, j, meeting, now);
     } else {
         changed.push_back(j);
-        const Track a = moving(i).track[std::size_t(k)];
-        const Track b = moving(j).track[std::size_t(k)];
-        if (restitution_ == 1 && moving(i).mass == moving(j).mass &&
-            a.acceleration == b.acceleration && !moving(i).rests(k)) {
+        if (moving(i).mass == moving(j).mass && a.acceleration == b.acceleration &&
+            !moving(i).rests(k)) {
             exchange(k, i, j, meeting);
         } else {
             const double mi = moving(i).mass;
             const double mj = moving(j).mass;
-            const double impulse = (1 + restitution_) * (a.speed(now) - b.speed(now)) / (mi + mj);
+            const double impulse = 2 * (a.speed(now) - b.speed(now)) / (mi + mj);
             fly(k, i, a.at(now), a.speed(now) - mj * impulse, now);
             fly(k, j, b.at(now), b.speed(now) + mi * impulse, now);
         }
         letGoRestingOn(j, now, changed);
     }
     letGoRestingOn(i, now, changed);
-    return outcome;
+    return Outcome::Collision;
 }
+
+// ---- restitution below 1
+
+/// Whether a push in a direction does not move it.
+bool TrackModel::holds(std::int64_t i, int k, double direction) const {
+    return i < 0 || (body(i).rests(k) && gravity_[std::size_t(k)] * direction > 0);
+}
+
+/// What a push of box i in a direction pushes.
+TrackModel::Side TrackModel::sideOf(std::int64_t i, int k, double direction,
+                                    const Manner& manner) const {
+    const double now = manner.now;
+    Side side{.boxes = {i}, .mass = 0, .held = holds(i, k, direction)};
+    if (i < 0) return side;
+    const auto pushes = [&](std::int64_t a, std::int64_t b) {
+        const Meeting along = meet(a, b, k, now);
+        if (along.sign * direction < 0 ||
+            std::abs(along.distance - along.contact) > along.rounding) {
+            return false;
+        }
+        const double va = body(a).track[std::size_t(k)].speed(now);
+        const double vb = body(b).track[std::size_t(k)].speed(now);
+        if (std::abs(va - vb) > creep(va, vb, manner.restitution)) return false;
+        const Meeting across = meet(a, b, 1 - k, now);
+        return across.distance < across.contact - across.rounding;
+    };
+    const auto look = [&](std::int64_t a, std::int64_t b) {
+        if (side.held || a == b || !pushes(a, b)) return;
+        side.held = holds(b, k, direction);
+        if (b < 0 || std::find(side.boxes.begin(), side.boxes.end(), b) != side.boxes.end()) return;
+        side.boxes.push_back(b);
+    };
+    for (std::size_t n = 0; n < side.boxes.size() && !side.held; ++n) {
+        const std::int64_t a = side.boxes[n];
+        for (const std::int64_t b : manner.near(a)) look(a, b);
+        for (std::int64_t s = 0; s < staticCount(); ++s) look(a, -1 - s);
+    }
+    for (const std::int64_t box : side.boxes) side.mass += body(box).mass;
+    return side;
+}
+
+/// Collides what is pushed along on either side.
+void TrackModel::push(int k, std::int64_t i, std::int64_t j, const Meeting& meeting,
+                      const Manner& manner, std::vector<std::int64_t>& changed) {
+    const double now = manner.now;
+    const Side below = sideOf(i, k, -meeting.sign, manner);
+    const Side above = sideOf(j, k, meeting.sign, manner);
+    if (below.boxes.size() + above.boxes.size() > 2 || (below.held && i >= 0) ||
+        (above.held && j >= 0)) {
+        ++choices_.pushed;
+    }
+    const double vi = body(i).track[std::size_t(k)].speed(now);
+    const double vj = body(j).track[std::size_t(k)].speed(now);
+    const double e = manner.restitution;
+    const double bounce = e * std::abs(vi - vj) >= restSpeed ? e : 0;
+    double newI = 0;
+    double newJ = 0;
+    if (!below.held && !above.held) {
+        const double common = (below.mass * vi + above.mass * vj) / (below.mass + above.mass);
+        newI = common - bounce * above.mass / (below.mass + above.mass) * (vi - vj);
+        newJ = common + bounce * below.mass / (below.mass + above.mass) * (vi - vj);
+    } else if (below.held) {
+        newJ = bounce * (vi - vj);
+    } else {
+        newI = -bounce * (vi - vj);
+    }
+    const auto go = [&](const Side& side, std::int64_t first, double velocity) {
+        if (side.held) {
+            if (first < 0) return;
+            Track& track = moving(first).track[std::size_t(k)];
+            if (track.speed(now) == 0) return;
+            track = {track.at(now), 0, track.acceleration, now};
+            changed.push_back(first);
+            return;
+        }
+        for (const std::int64_t box : side.boxes) {
+            fly(k, box, body(box).track[std::size_t(k)].at(now), velocity, now);
+            changed.push_back(box);
+        }
+        for (const std::int64_t box : side.boxes) letGoRestingOn(box, now, changed);
+    };
+    go(below, i, newI);
+    if (below.held && above.held) newJ = 0;
+    go(above, j, newJ);
+}
+
+// ---- restitution 1
 
 /// Equal masses: each goes on along the other's trajectory, offset by the distance of contact.
 void TrackModel::exchange(int k, std::int64_t i, std::int64_t j, const Meeting& meeting) {
@@ -232,17 +407,17 @@ void TrackModel::bounceOff(int k, std::int64_t i, std::int64_t j, const Meeting&
     const double border =
         exact ? body(j).track[std::size_t(k)].position - meeting.sign * meeting.contact
               : track.at(now);
-    if (restitution_ == 1 && track.acceleration == 0) {
+    if (track.acceleration == 0) {
         track.position = 2 * border - track.position;
         track.velocity = -track.velocity;
         // A deep overlap has no border to mirror at: the position at this instant stays.
         if (!exact) track = {border, track.velocity, 0, now};
     } else {
-        fly(k, i, border, -restitution_ * track.speed(now), now);
+        fly(k, i, border, -track.speed(now), now);
     }
 }
 
-/// The rebound is too slow to be one.
+/// Gravity holds the pair together: one comes to rest on the other.
 void TrackModel::settle(int k, std::int64_t i, std::int64_t j, const Meeting& meeting, double now,
                         std::vector<std::int64_t>& changed) {
     const bool exact = std::abs(meeting.distance - meeting.contact) <= meeting.rounding;
@@ -262,16 +437,6 @@ void TrackModel::settle(int k, std::int64_t i, std::int64_t j, const Meeting& me
     } else if (body(i).rests(k) && meeting.pressure > 0) {
         restOn(k, j, i, a.at(now) + offset, a.speed(now), now);
         changed.push_back(j);
-        letGoRestingOn(j, now, changed);
-    } else {
-        const double mi = body(i).mass;
-        const double mj = body(j).mass;
-        const double common = (mi * a.speed(now) + mj * b.speed(now)) / (mi + mj);
-        fly(k, i, a.at(now), common, now);
-        fly(k, j, b.at(now), common, now);
-        changed.push_back(i);
-        changed.push_back(j);
-        letGoRestingOn(i, now, changed);
         letGoRestingOn(j, now, changed);
     }
 }

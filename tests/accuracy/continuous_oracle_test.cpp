@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 
 #include <quadrille/quadrille.hpp>
 
+#include "accuracy/metrics.hpp"
 #include "reference/oracle.hpp"
 
 // The law `continuous` against the event-driven oracle, which shares no code with it: unequal sizes
@@ -15,7 +17,17 @@
 namespace quadrille {
 namespace {
 
-void compareWithOracle(std::uint64_t seed, const Vec2& gravity, double restitution, int steps) {
+/// The first contact of bodies that are within so little of each other that rounding decides in
+/// which order they collide from then on.
+std::size_t collapseIn(const std::vector<Contact>& contacts) {
+    const auto slow = std::find_if(contacts.begin(), contacts.end(), [](const Contact& c) {
+        return c.approach.cwiseAbs().maxCoeff() < 0.1;
+    });
+    return static_cast<std::size_t>(slow - contacts.begin());
+}
+
+void compareWithOracle(std::uint64_t seed, const Vec2& gravity, double restitution, int steps,
+                       std::size_t* untilCollapse = nullptr) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     World world({.size = {200, 150}});
@@ -23,7 +35,8 @@ void compareWithOracle(std::uint64_t seed, const Vec2& gravity, double restituti
     std::vector<reference::Box> boxes;
     const auto add = [&](const Vec2& position, const Vec2& size, const Vec2& velocity, double mass,
                          bool isStatic) {
-        boxes.push_back({position, velocity, size, mass, isStatic});
+        const auto label = static_cast<std::uint32_t>(boxes.size());  // the entity's id
+        boxes.push_back({position, velocity, size, mass, isStatic, label});
     };
     for (std::uint32_t i = 0; i < 4; ++i) {
         const Entity wall = world.at(i);
@@ -53,11 +66,22 @@ void compareWithOracle(std::uint64_t seed, const Vec2& gravity, double restituti
     const double energy = totalEnergy(sim.world(), gravity);
     sim.run(static_cast<std::uint64_t>(steps));
 
-    reference::Oracle oracle(boxes, gravity, restitution);
+    reference::Oracle oracle(boxes, gravity, restitution, reference::Ties::ByLabels);
     oracle.runUntil(sim.time());
     const auto& events = oracle.events();
-    ASSERT_EQ(contacts.size(), events.size());
     ASSERT_GT(events.size(), 50u);
+    if (untilCollapse != nullptr) {
+        // What happens at one instant may come in another order, by the last digit of its time.
+        std::vector<reference::Event> measured;
+        for (std::size_t k = 0; k < collapseIn(contacts); ++k) {
+            const Contact& c = contacts[k];
+            measured.push_back({c.time, c.numberA, c.numberB, static_cast<int>(c.axis)});
+        }
+        *untilCollapse += measured.size();
+        ASSERT_EQ(accuracy::matchEvents(events, measured, 1e-9).matched, measured.size());
+        return;
+    }
+    ASSERT_EQ(contacts.size(), events.size());
     for (std::size_t k = 0; k < events.size(); ++k) {
         SCOPED_TRACE("event " + std::to_string(k));
         ASSERT_NEAR(contacts[k].time, events[k].time, 1e-9);
@@ -96,13 +120,24 @@ TEST_F(ContinuousAgainstOracle, UnderGravity) {
     compare({50, 80}, 1, 40);
 }
 
-// How bodies that touch take an impact is a choice, and the two choose differently; so these are
-// scenes in which none has come to rest on another yet.
 TEST_F(ContinuousAgainstOracle, WithRestitutionBelowOne) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         compareWithOracle(seed, {0, 0}, 0.9, 60);
         compareWithOracle(seed, {0, -300}, 0.9, 30);
     }
+}
+
+// Bodies come to rest on others, and are hit there.
+TEST_F(ContinuousAgainstOracle, WhereBodiesLieOnEachOther) {
+    std::size_t compared = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        for (const double restitution : {0.0, 0.2, 0.5, 0.8}) {
+            SCOPED_TRACE("restitution " + std::to_string(restitution));
+            compareWithOracle(seed, {0, -300}, restitution, 80, &compared);
+            if (HasFailure()) return;
+        }
+    }
+    EXPECT_GT(compared, 5000u);
 }
 
 }  // namespace

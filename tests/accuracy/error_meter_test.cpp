@@ -210,6 +210,43 @@ TEST(ErrorMeter, GravityAndRestitutionHaveTheirReference) {
     EXPECT_EQ(m.wallIdentity, std::nullopt);
 }
 
+// Which of several events at one instant comes first is a choice, and both make the same.
+TEST(ErrorMeter, ScenesFullOfTiesAreExactWithTheLawContinuous) {
+    for (const auto& [name, entities] : {std::pair("demo13k", 13400), {"balanced-scaled", 3000}}) {
+        SCOPED_TRACE(name);
+        Scene scene = shippedScene(name, static_cast<std::uint64_t>(entities));
+        const ErrorMetrics m =
+            measure(std::move(scene.world), {.law = Law::Continuous, .step = scene.step}, 60)
+                .metrics;
+        EXPECT_GT(m.events.exact, 1000u);
+        EXPECT_EQ(m.events.recall(), 1);
+        EXPECT_EQ(m.events.precision(), 1);
+        EXPECT_EQ(m.wrongBodies, 0u);
+        EXPECT_EQ(m.positionError.max, 0);
+        EXPECT_EQ(m.pushedCollisions + m.jammedCollisions, 0u);
+    }
+}
+
+// What lies on each other is hit again within 1e-11 s, in an order that rounding decides; so some
+// bodies differ, but few, and little.
+TEST(ErrorMeter, AHeapIsNearItsReference) {
+    Scene scene = shippedScene("pile");
+    const ErrorMetrics m =
+        measure(std::move(scene.world), {.law = Law::Continuous, .step = scene.step}, 60).metrics;
+    EXPECT_GT(m.pushedCollisions, 1000u);
+    EXPECT_GT(m.events.recall(), 0.8);
+    EXPECT_GT(m.events.precision(), 0.8);
+    EXPECT_LT(m.positionError.median, 1e-9);
+    EXPECT_LT(m.positionError.p99, 0.5);
+}
+
+TEST(ErrorMeter, ACrowdThatOverlapsAtTheStartHasItsReference) {
+    Scene scene = shippedScene("imbalanced", 400);
+    const ErrorMetrics m =
+        measure(std::move(scene.world), {.law = Law::Continuous, .step = scene.step}, 10).metrics;
+    EXPECT_NEAR(m.events.rateBias().value(), 0, 0.2);
+}
+
 TEST(ErrorMeter, PairsMissedByAStaleTreeAreCounted) {
     SimulationConfig config{
         .partitioner = SemiStaticQuadtree{10, 1, SemiStaticQuadtree::EveryFrames{200}},
