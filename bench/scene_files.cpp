@@ -12,7 +12,7 @@ namespace {
 std::filesystem::path folder() { return QUADRILLE_SCENES_DIR; }
 
 std::filesystem::path findScene(const std::string& nameOrFile) {
-    const auto shipped = folder() / (nameOrFile + ".toml");
+    auto shipped = folder() / (nameOrFile + ".toml");
     if (std::filesystem::exists(shipped)) return shipped;
     if (std::filesystem::is_regular_file(nameOrFile)) return nameOrFile;
     std::string names;

@@ -35,6 +35,7 @@ struct Options {
 template <class Kind>
 std::vector<Kind> kindsOf(const std::vector<std::string>& names, std::span<const Named<Kind>> all) {
     std::vector<Kind> kinds;
+    kinds.reserve(names.size());
     for (const std::string& wanted : names) kinds.push_back(find(all, wanted).value());
     return kinds;
 }

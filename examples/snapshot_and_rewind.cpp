@@ -11,7 +11,9 @@ World crowd() {
     World world({.size = {300, 300}, .seed = 3});
     world.addWalls();
     for (int i = 0; i < 100; ++i) {
-        const Vec2 place{-135.0 + 30 * (i % 10), -135.0 + 30 * (i / 10)};
+        const int column = i % 10;
+        const int row = i / 10;
+        const Vec2 place{-135.0 + 30 * column, -135.0 + 30 * row};
         const Vec2 velocity{world.random().uniform(-90, 90), world.random().uniform(-90, 90)};
         world.add(world.create(), Transform{place}, BoxCollider{{12, 12}},
                   PhysicsBody{.velocity = velocity});
