@@ -88,6 +88,10 @@ const CLI::Validator wholeNumber(
     },
     "");
 
+/// After wholeNumber, which leaves one way to write it.
+const CLI::Validator notZero(
+    [](std::string& text) { return text == "0" ? std::string("'0' is not above 0") : ""; }, "");
+
 /// CLI::PositiveNumber and CLI::Range let NaN pass, and print the largest double in full.
 CLI::Validator finiteNumber(bool (*valid)(double), std::string range) {
     return CLI::Validator(
@@ -290,10 +294,18 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
-    app.add_option("--save", options.save, "Write a snapshot at the end")
-        ->check(fileName)
-        ->type_name("FILE")
-        ->group("Output");
+    auto* save = app.add_option("--save", options.save, "Write a snapshot at the end")
+                     ->check(fileName)
+                     ->type_name("FILE")
+                     ->group("Output");
+    app.add_option("--save-every", options.saveEvery,
+                   "Write that snapshot after every so many frames, too: what a run that is killed "
+                   "goes on from")
+        ->check(wholeNumber)
+        ->check(notZero)
+        ->type_name("FRAMES")
+        ->group("Output")
+        ->needs(save);
     app.add_flag("--explain", options.explain,
                  "Print what the scene makes the engine model, and exit")
         ->group("Output");

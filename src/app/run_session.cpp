@@ -72,6 +72,7 @@ const StepReport& RunSession::step() {
         for (const Contact& contact : run_.simulation.contacts()) events_->record(contact);
     }
     if (frames_) frames_->record(run_.simulation, *report, milliseconds);
+    keepSnapshot();
     return *report;
 }
 
@@ -93,6 +94,29 @@ void RunSession::keepCheckpoint() {
     checkpoint_.reset();  // two at once would take as much again
     checkpoint_ = {run_.simulation.snapshot(), run_.simulation.config(), before, {}};
     checkpoint_->cost = Clock::now() - before;
+}
+
+/// What --save-every asks for. Where the end of the run is near, that writes the last one.
+void RunSession::keepSnapshot() {
+    if (!options_.saveEvery || statistics_.frames() % *options_.saveEvery != 0) return;
+    if (allFramesDone() || interruptedBy() != 0) return;
+    const auto before = Clock::now();
+    try {
+        save(run_);
+        snapshotFailed_ = false;
+    } catch (const Error& error) {
+        // The results are not lost for it, and the snapshot of the end may succeed.
+        if (!std::exchange(snapshotFailed_, true)) {
+            ProgressLine(options_.frames).wipe();
+            std::cerr << "collisionStress: warning: " << error.what() << "; the run goes on\n";
+        }
+    }
+    // To repeat the frames since the checkpoint takes no longer for it.
+    checkpoint_->taken += Clock::now() - before;
+}
+
+void RunSession::save(const Run& run) const {
+    saveSnapshot(options_.save, run.simulation, run.scene, run.seed);
 }
 
 /// The end of a run that hangs in a frame: its simulation is out of reach, and another one repeats
@@ -150,9 +174,7 @@ int RunSession::conclude(const Run& run, int signal, bool insideFrame) {
     if (frames_) frames_->commit();
     if (events_) events_->commit();
     if (state_) writeState(*state_, run.simulation.world());
-    if (!options_.save.empty()) {
-        saveSnapshot(options_.save, run.simulation, run.scene, run.seed);
-    }
+    if (!options_.save.empty()) save(run);
     if (json_) {
         json_->stream() << summary.dump(2) << '\n';
         json_->commit();

@@ -64,6 +64,8 @@ class RunSession {
     };
 
     void keepCheckpoint();
+    void keepSnapshot();
+    void save(const Run& run) const;
     int leaveFrame(int signal);
     void showProgress(std::chrono::duration<double> inFrame);
     int conclude(const Run& run, int signal, bool insideFrame);
@@ -80,7 +82,8 @@ class RunSession {
     Clock::time_point begin_;
     std::optional<Checkpoint> checkpoint_;
     bool progressShown_ = false;
-    RunWatch watch_;  // last, since its thread uses the others
+    bool snapshotFailed_ = false;  // the last one that was due
+    RunWatch watch_;               // last, since its thread uses the others
 };
 
 }  // namespace quadrille::app

@@ -116,7 +116,7 @@ TEST_F(SignalInAFrame, LeavesItWithTheOutputsOfTheFrameBefore) {
         QUADRILLE_PROGRAM,
         {"--headless", "--scene", scene, "--frames", "1000", "--report-every", "1e-9", "--json",
          file("run.json"), "--csv", file("frames.csv"), "--dump-state", file("state.csv"),
-         "--dump-events", file("events.csv"), "--save", file("snapshot")});
+         "--dump-events", file("events.csv"), "--save", file("snapshot"), "--save-every", "3"});
     ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "frames 10 "); }))
         << process.err();
     std::this_thread::sleep_for(std::chrono::seconds(1));

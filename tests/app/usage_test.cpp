@@ -176,15 +176,23 @@ INSTANTIATE_TEST_SUITE_P(Usage, ImpossibleCount,
 
 TEST(Usage, MissingValues) {
     for (const char* option :
-         {"--scene",        "--set",          "--seed",      "--partitioner", "--cell-size",
-          "--max-depth",    "--max-per-cell", "--rebuild",   "--resolver",    "--threads",
-          "--law",          "--precision",    "--dt",        "--restitution", "--duration",
-          "--report-every", "--json",         "--csv",       "--dump-state",  "--dump-events",
-          "--save",         "--load",         "--screenshot"}) {
+         {"--scene",        "--set",          "--seed",       "--partitioner", "--cell-size",
+          "--max-depth",    "--max-per-cell", "--rebuild",    "--resolver",    "--threads",
+          "--law",          "--precision",    "--dt",         "--restitution", "--duration",
+          "--report-every", "--json",         "--csv",        "--dump-state",  "--dump-events",
+          "--save",         "--load",         "--screenshot", "--save-every"}) {
         expectUsageError({option}, {option});
     }
     expectRefusal({"--headless", "--frames"}, 2, {"--frames"});
     expectRefusal({"--headless", "--entities"}, 2, {"--entities"});
+}
+
+TEST(Usage, SavingNowAndThenNeedsAFileAndFrames) {
+    expectUsageError({"--save-every", "5"}, {"--save-every", "requires", "--save"});
+    for (const char* frames : {"0", "-1", "1.5", "00", "often"}) {
+        expectUsageError({"--save", "/no/such/folder/snapshot", "--save-every", frames},
+                         {"--save-every", frames});
+    }
 }
 
 TEST(Usage, OptionGivenTwice) {
