@@ -10,7 +10,6 @@
 #include "app/error_summary.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
-#include "app/progress.hpp"
 
 namespace quadrille::app {
 
@@ -64,7 +63,7 @@ const StepReport& RunSession::step() {
         seconds = Clock::now() - before;
         if (meter_) meter_->follow();
     });
-    if (std::exchange(progressShown_, false)) ProgressLine(options_.frames).wipe();
+    if (std::exchange(progressShown_, false)) progressLine().wipe();
     const double milliseconds =
         1e3 * (seconds.count() - report->auditSeconds - report->observeSeconds);
     statistics_.add(*report, milliseconds);
@@ -107,7 +106,7 @@ void RunSession::keepSnapshot() {
     } catch (const Error& error) {
         // The results are not lost for it, and the snapshot of the end may succeed.
         if (!std::exchange(snapshotFailed_, true)) {
-            ProgressLine(options_.frames).wipe();
+            progressLine().wipe();
             std::cerr << "collisionStress: warning: " << error.what() << "; the run goes on\n";
         }
     }
@@ -133,24 +132,24 @@ int RunSession::leaveFrame(int signal) {
             .simulation = Simulation(std::move(checkpoint_->snapshot.world), config)};
     run.simulation.resumeAt(checkpoint_->snapshot.stepsDone);
     run.simulation.run(stepsBefore_ + statistics_.frames() - run.simulation.stepsDone());
-    ProgressLine(options_.frames).wipe();
+    progressLine().wipe();
     return conclude(run, signal, true);
 }
 
 void RunSession::showProgress(std::chrono::duration<double> inFrame) {
     progressShown_ = true;
-    ProgressLine(options_.frames).show(statistics_.frames(), inFrame.count());
+    progressLine().show(statistics_.frames(), elapsed(), inFrame.count());
 }
 
 bool RunSession::allFramesDone() const {
     return options_.frames && statistics_.frames() >= *options_.frames;
 }
 
-bool RunSession::timeIsUp() const {
-    if (!options_.duration) return false;
-    const std::chrono::duration<double> elapsed = Clock::now() - begin_;
-    return elapsed.count() >= *options_.duration;
+double RunSession::elapsed() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
+
+bool RunSession::timeIsUp() const { return options_.duration && elapsed() >= *options_.duration; }
 
 int RunSession::finish() {
     // A signal that comes later than the last frame interrupts nothing.
