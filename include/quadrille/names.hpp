@@ -63,6 +63,14 @@ std::string alternatives(std::span<const Named<Kind>> all) {
     return text;
 }
 
+/// Those that a mistyped name may have meant, in the order of `names`: those that the fewest typing
+/// errors lead to, a letter too much, missing, wrong or swapped with the next, in at most a third
+/// of the letters. Capitals are no error.
+std::vector<std::string> nearestNames(std::string_view typed, std::span<const std::string> names);
+
+/// "; did you mean 'a' or 'b'?" for the end of a message, or nothing if there are none.
+std::string didYouMean(std::span<const std::string> nearest);
+
 /// Whether the law runs on the resolver. `Auto` runs every law.
 bool runsOn(Law law, ResolverKind resolver);
 

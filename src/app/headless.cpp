@@ -63,7 +63,7 @@ int runHeadless(Run run, const Options& options) {
     const Simulation& simulation = session.simulation();
     const RunStatistics& statistics = session.statistics();
     PeriodicReport report(wordsOf(options), simulation, session.start().total);
-    ProgressLine progress(options.frames);
+    const ProgressLine progress(options.frames, options.duration);
     catchInterrupts();
     bool deviceFailed = !simulation.resolverFailure().empty();
     auto lastReport = Clock::now();
@@ -77,7 +77,7 @@ int runHeadless(Run run, const Options& options) {
             deviceFailed = true;
         }
         if (secondsBetween(lastProgress, now) >= 0.2) {
-            progress.show(statistics.frames());
+            progress.show(statistics.frames(), session.elapsed());
             lastProgress = now;
         }
         if (secondsBetween(lastReport, now) >= options.reportEvery) {

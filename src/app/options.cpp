@@ -1,6 +1,7 @@
 #include "app/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <quadrille/version.hpp>
 
 #include "app/exit_code.hpp"
+#include "app/one_of.hpp"
 #include "app/scene_catalog.hpp"
 #include "app/standard_streams.hpp"
 #include "system/whole_file.hpp"
@@ -69,8 +71,10 @@ decltype(SemiStaticQuadtree::rebuild) parseRebuild(std::string_view text) {
         }
         return SemiStaticQuadtree::EveryFrames{static_cast<int>(frames)};
     }
+    const std::array<std::string, 2> policies = {"skin", "every"};
     throw UsageError("--rebuild: '" + std::string(text) +
-                     "' is not known; valid: skin, skin:WIDTH, every:K");
+                     "' is not known; valid: skin, skin:WIDTH, every:K" +
+                     didYouMean(nearestNames(text.substr(0, text.find(':')), policies)));
 }
 
 /// CLI11 converts as strtoull does, which wraps -1, cuts what is too large and reads 010 as octal.
@@ -83,6 +87,10 @@ const CLI::Validator wholeNumber(
         return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
     },
     "");
+
+/// After wholeNumber, which leaves one way to write it.
+const CLI::Validator notZero(
+    [](std::string& text) { return text == "0" ? std::string("'0' is not above 0") : ""; }, "");
 
 /// CLI::PositiveNumber and CLI::Range let NaN pass, and print the largest double in full.
 CLI::Validator finiteNumber(bool (*valid)(double), std::string range) {
@@ -187,7 +195,7 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->group("Scene");
 
     app.add_option("--partitioner", raw.partitioner, alternatives(partitioners()))
-        ->check(CLI::IsMember(namesOf(partitioners())))
+        ->check(oneOf(namesOf(partitioners())))
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
@@ -212,7 +220,7 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->capture_default_str()
         ->group("Collisions");
     app.add_option("--resolver", raw.resolver, alternativesWithMeaning(resolvers()))
-        ->check(CLI::IsMember(namesOf(resolvers())))
+        ->check(oneOf(namesOf(resolvers())))
         ->type_name("NAME")
         ->capture_default_str()
         ->group("Collisions");
@@ -230,7 +238,7 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_option("--cuda-thread", raw.cudaThread,
                    "What a thread of the resolver 'cuda' looks after: a cell, as in the report, or "
                    "a body in a cell")
-        ->check(CLI::IsMember({"cell", "body"}))
+        ->check(oneOf({"cell", "body"}))
         ->type_name("cell|body")
         ->capture_default_str()
         ->group("Collisions");
@@ -239,13 +247,13 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->group("Collisions");
     app.add_option("--law", raw.law,
                    alternatives(laws()) + " (" + std::string(name(SimulationConfig{}.law)) + ")")
-        ->check(CLI::IsMember(namesOf(laws())))
+        ->check(oneOf(namesOf(laws())))
         ->type_name("NAME")
         ->group("Collisions");
     app.add_option("--precision", raw.precision,
                    alternatives(precisions()) + " (" +
                        std::string(name(SimulationConfig{}.precision)) + ")")
-        ->check(CLI::IsMember(namesOf(precisions())))
+        ->check(oneOf(namesOf(precisions())))
         ->type_name("NAME")
         ->group("Collisions");
 
@@ -286,10 +294,18 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->check(fileName)
         ->type_name("FILE")
         ->group("Output");
-    app.add_option("--save", options.save, "Write a snapshot at the end")
-        ->check(fileName)
-        ->type_name("FILE")
-        ->group("Output");
+    auto* save = app.add_option("--save", options.save, "Write a snapshot at the end")
+                     ->check(fileName)
+                     ->type_name("FILE")
+                     ->group("Output");
+    app.add_option("--save-every", options.saveEvery,
+                   "Write that snapshot after every so many frames, too: what a run that is killed "
+                   "goes on from")
+        ->check(wholeNumber)
+        ->check(notZero)
+        ->type_name("FRAMES")
+        ->group("Output")
+        ->needs(save);
     app.add_flag("--explain", options.explain,
                  "Print what the scene makes the engine model, and exit")
         ->group("Output");
@@ -366,6 +382,32 @@ void interpret(Options& options, const RawOptions& raw) {
     }
 }
 
+/// What to say of options that are not known, with those that they may have meant.
+std::optional<CLI::ExtrasError> refuseUnknownOptions(const CLI::App& app) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) known.push_back(name);
+    }
+    const std::vector<std::string> unexpected = app.remaining();
+    std::vector<std::string> meant;
+    bool unknown = false;
+    for (const std::string_view argument : unexpected) {
+        if (!argument.starts_with('-')) continue;
+        unknown = true;
+        const std::string_view name = argument.substr(0, argument.find('='));
+        const std::size_t start = std::min(name.find_first_not_of('-'), name.size());
+        for (const std::string& nearest : nearestNames(name.substr(start), known)) {
+            const std::string option = "--" + nearest;
+            if (std::find(meant.begin(), meant.end(), option) == meant.end()) {
+                meant.push_back(option);
+            }
+        }
+    }
+    if (!unknown) return std::nullopt;
+    return CLI::ExtrasError(CLI::ExtrasError(unexpected).what() + didYouMean(meant),
+                            CLI::ExitCodes::ExtrasError);
+}
+
 }  // namespace
 
 ParsedOptions parseOptions(int argc, const char* const* argv) {
@@ -377,7 +419,9 @@ ParsedOptions parseOptions(int argc, const char* const* argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-        app.exit(error, std::cout, std::cerr);
+        // The value of an unknown option is taken for a scene, and what comes of that says less.
+        const auto unknown = asked ? std::nullopt : refuseUnknownOptions(app);
+        app.exit(unknown ? *unknown : error, std::cout, std::cerr);
         return {.options = std::nullopt, .exitCode = asked ? done : usageError};
     }
     interpret(options, raw);

@@ -47,6 +47,7 @@ struct Options {
 
     std::string json, csv, dumpState, dumpEvents;  ///< file names, "-" for stdout, or empty
     std::string save, load;
+    std::optional<std::uint64_t> saveEvery;  ///< frames
 
     WindowOptions window;
 };

@@ -10,7 +10,6 @@
 #include "app/error_summary.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
-#include "app/progress.hpp"
 
 namespace quadrille::app {
 
@@ -64,7 +63,7 @@ const StepReport& RunSession::step() {
         seconds = Clock::now() - before;
         if (meter_) meter_->follow();
     });
-    if (std::exchange(progressShown_, false)) ProgressLine(options_.frames).wipe();
+    if (std::exchange(progressShown_, false)) progressLine().wipe();
     const double milliseconds =
         1e3 * (seconds.count() - report->auditSeconds - report->observeSeconds);
     statistics_.add(*report, milliseconds);
@@ -72,6 +71,7 @@ const StepReport& RunSession::step() {
         for (const Contact& contact : run_.simulation.contacts()) events_->record(contact);
     }
     if (frames_) frames_->record(run_.simulation, *report, milliseconds);
+    keepSnapshot();
     return *report;
 }
 
@@ -95,6 +95,29 @@ void RunSession::keepCheckpoint() {
     checkpoint_->cost = Clock::now() - before;
 }
 
+/// What --save-every asks for. Where the end of the run is near, that writes the last one.
+void RunSession::keepSnapshot() {
+    if (!options_.saveEvery || statistics_.frames() % *options_.saveEvery != 0) return;
+    if (allFramesDone() || interruptedBy() != 0) return;
+    const auto before = Clock::now();
+    try {
+        save(run_);
+        snapshotFailed_ = false;
+    } catch (const Error& error) {
+        // The results are not lost for it, and the snapshot of the end may succeed.
+        if (!std::exchange(snapshotFailed_, true)) {
+            progressLine().wipe();
+            std::cerr << "collisionStress: warning: " << error.what() << "; the run goes on\n";
+        }
+    }
+    // To repeat the frames since the checkpoint takes no longer for it.
+    checkpoint_->taken += Clock::now() - before;
+}
+
+void RunSession::save(const Run& run) const {
+    saveSnapshot(options_.save, run.simulation, run.scene, run.seed);
+}
+
 /// The end of a run that hangs in a frame: its simulation is out of reach, and another one repeats
 /// what came after the checkpoint.
 int RunSession::leaveFrame(int signal) {
@@ -109,24 +132,24 @@ int RunSession::leaveFrame(int signal) {
             .simulation = Simulation(std::move(checkpoint_->snapshot.world), config)};
     run.simulation.resumeAt(checkpoint_->snapshot.stepsDone);
     run.simulation.run(stepsBefore_ + statistics_.frames() - run.simulation.stepsDone());
-    ProgressLine(options_.frames).wipe();
+    progressLine().wipe();
     return conclude(run, signal, true);
 }
 
 void RunSession::showProgress(std::chrono::duration<double> inFrame) {
     progressShown_ = true;
-    ProgressLine(options_.frames).show(statistics_.frames(), inFrame.count());
+    progressLine().show(statistics_.frames(), elapsed(), inFrame.count());
 }
 
 bool RunSession::allFramesDone() const {
     return options_.frames && statistics_.frames() >= *options_.frames;
 }
 
-bool RunSession::timeIsUp() const {
-    if (!options_.duration) return false;
-    const std::chrono::duration<double> elapsed = Clock::now() - begin_;
-    return elapsed.count() >= *options_.duration;
+double RunSession::elapsed() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
+
+bool RunSession::timeIsUp() const { return options_.duration && elapsed() >= *options_.duration; }
 
 int RunSession::finish() {
     // A signal that comes later than the last frame interrupts nothing.
@@ -150,9 +173,7 @@ int RunSession::conclude(const Run& run, int signal, bool insideFrame) {
     if (frames_) frames_->commit();
     if (events_) events_->commit();
     if (state_) writeState(*state_, run.simulation.world());
-    if (!options_.save.empty()) {
-        saveSnapshot(options_.save, run.simulation, run.scene, run.seed);
-    }
+    if (!options_.save.empty()) save(run);
     if (json_) {
         json_->stream() << summary.dump(2) << '\n';
         json_->commit();

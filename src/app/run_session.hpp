@@ -10,6 +10,7 @@
 #include "accuracy/error_meter.hpp"
 #include "app/options.hpp"
 #include "app/output_file.hpp"
+#include "app/progress.hpp"
 #include "app/recorders.hpp"
 #include "app/run_setup.hpp"
 #include "app/run_statistics.hpp"
@@ -44,6 +45,8 @@ class RunSession {
     /// Changes what a step is made with, as Simulation::reconfigure does.
     void reconfigure(const SimulationConfig& config);
 
+    /// Wall time since the start, in s.
+    double elapsed() const;
     /// Whether --frames ends the run here.
     bool allFramesDone() const;
     /// Whether --duration does.
@@ -64,7 +67,10 @@ class RunSession {
     };
 
     void keepCheckpoint();
+    void keepSnapshot();
+    void save(const Run& run) const;
     int leaveFrame(int signal);
+    ProgressLine progressLine() const { return {options_.frames, options_.duration}; }
     void showProgress(std::chrono::duration<double> inFrame);
     int conclude(const Run& run, int signal, bool insideFrame);
 
@@ -80,7 +86,8 @@ class RunSession {
     Clock::time_point begin_;
     std::optional<Checkpoint> checkpoint_;
     bool progressShown_ = false;
-    RunWatch watch_;  // last, since its thread uses the others
+    bool snapshotFailed_ = false;  // the last one that was due
+    RunWatch watch_;               // last, since its thread uses the others
 };
 
 }  // namespace quadrille::app

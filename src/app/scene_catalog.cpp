@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include <quadrille/names.hpp>
+
 #include "app/options.hpp"
 
 namespace quadrille::app {
@@ -47,7 +49,8 @@ fs::path findScene(const std::string& nameOrFile) {
     }
     std::string message = "--scene: '" + nameOrFile + "' is not known; valid: ";
     for (const std::string& name : names) message += name + ", ";
-    throw UsageError(message + "or the path of a .toml file");
+    throw UsageError(message + "or the path of a .toml file" +
+                     didYouMean(nearestNames(nameOrFile, names)));
 }
 
 }  // namespace quadrille::app

@@ -8,6 +8,8 @@
 #include <system_error>
 #include <vector>
 
+#include "app/one_of.hpp"
+
 namespace quadrille::app {
 
 namespace {
@@ -86,7 +88,7 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
            "gridlines, heat-map, contacts, or several of them")
         ->delimiter(',')
         ->allow_extra_args(false)  // a scene may follow
-        ->check(CLI::IsMember({"gridlines", "heat-map", "contacts"}))
+        ->check(oneOf({"gridlines", "heat-map", "contacts"}))
         ->type_name("WHAT,...")
         ->group(group);
     const std::map<std::string, ColorBy> colors = {
@@ -95,7 +97,7 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
            "--color-by",
            [&options, colors](const std::string& name) { options.colorBy = colors.at(name); },
            "entity, speed or cell (entity)")
-        ->check(CLI::IsMember(colors))
+        ->check(oneOf({"entity", "speed", "cell"}))
         ->type_name("WHAT")
         ->group(group);
     app.add_flag("!--no-vsync", options.vsync, "Show pictures without waiting for the screen")

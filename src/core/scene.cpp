@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -87,7 +88,9 @@ void readStep(SceneTable table, SceneDescription& scene) {
     }
     if (const auto law = table.string("law")) {
         scene.law = find(laws(), *law);
-        if (!scene.law) table.fail("law", "must be " + alternatives(laws()));
+        if (!scene.law)
+            table.fail("law", "must be " + alternatives(laws()) +
+                                  didYouMean(nearestNames(*law, namesOf(laws()))));
     }
     table.finish();
 }
@@ -96,7 +99,9 @@ void readSpawn(SceneTable table, SceneDescription& scene) {
     SpawnGroup group;
     const auto pattern = table.require("pattern", table.string("pattern"));
     if (pattern != "lattice" && pattern != "uniform") {
-        table.fail("pattern", "must be \"lattice\" or \"uniform\"");
+        const std::array<std::string, 2> patterns = {"lattice", "uniform"};
+        table.fail("pattern", "must be \"lattice\" or \"uniform\"" +
+                                  didYouMean(nearestNames(pattern, patterns)));
     }
     group.pattern =
         pattern == "lattice" ? SpawnGroup::Pattern::Lattice : SpawnGroup::Pattern::Uniform;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "core/scene_table.hpp"
 #include "core/scene_text.hpp"
@@ -76,7 +77,9 @@ class Descent {
         const std::string name(key.str());
         toml::node* there = scene.get(name);
         path_ += (path_.empty() ? "" : ".") + name;
-        if (there == nullptr && parts_ > 1 && isIndexed(value)) fail("the scene has none");
+        if (there == nullptr && parts_ > 1 && isIndexed(value)) {
+            fail("the scene has none" + didYouMean(nearestNames(name, keysOf(scene))));
+        }
         if (there == nullptr || parts_ == 1) {
             value.visit([&](auto& typed) { scene.insert_or_assign(name, std::move(typed)); });
             return;
@@ -87,6 +90,12 @@ class Descent {
   private:
     [[noreturn]] void fail(const std::string& reason) const {
         throw SceneError(std::string(settingSource) + ": " + path_ + ": " + reason);
+    }
+
+    static std::vector<std::string> keysOf(const toml::table& table) {
+        std::vector<std::string> keys;
+        for (const auto& [key, value] : table) keys.emplace_back(key.str());
+        return keys;
     }
 
     static std::optional<std::size_t> indexOf(std::string_view text) {

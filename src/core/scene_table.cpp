@@ -1,11 +1,13 @@
 #include "core/scene_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
 #include <quadrille/error.hpp>
+#include <quadrille/names.hpp>
 
 #include "core/scene_settings.hpp"
 
@@ -68,7 +70,18 @@ void SceneTable::fail(std::string_view key, const std::string& reason) const {
     const toml::node& guilty = value != nullptr ? *value : *table_;
     const std::string where =
         isSetting(guilty) ? std::string(settingSource) : placeOf(guilty.source(), file_);
-    throw SceneError(where + ": " + path_ + std::string(key) + ": " + reason);
+    const std::string mistyped = value == nullptr ? mistypedAs(key) : "";
+    throw SceneError(where + ": " + path_ + std::string(key) + ": " + reason + mistyped);
+}
+
+std::string SceneTable::mistypedAs(std::string_view key) const {
+    const std::array<std::string, 1> meant = {std::string(key)};
+    for (const auto& [there, node] : *table_) {
+        const bool known = std::find(known_.begin(), known_.end(), there.str()) != known_.end();
+        if (known || nearestNames(there.str(), meant).empty()) continue;
+        return "; '" + std::string(there.str()) + "' is not a known key" + didYouMean(meant);
+    }
+    return "";
 }
 
 std::optional<double> SceneTable::number(std::string_view key) {
@@ -184,7 +197,8 @@ void SceneTable::finish() const {
         if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
         std::string valid;
         for (const std::string& name : known_) valid += (valid.empty() ? "" : ", ") + name;
-        fail(key.str(), "is not a known key; known here: " + valid);
+        fail(key.str(), "is not a known key; known here: " + valid +
+                            didYouMean(nearestNames(key.str(), known_)));
     }
 }
 

@@ -55,6 +55,8 @@ class SceneTable {
 
   private:
     const toml::node* find(std::string_view key);
+    /// What to say of a key that is missing if another one, which nobody asked for, is near to it.
+    std::string mistypedAs(std::string_view key) const;
     std::optional<Vec2> numbers(std::string_view key, const char* shape);
 
     const toml::table* table_;

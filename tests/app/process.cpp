@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
@@ -27,16 +28,27 @@ std::array<int, 2> makePipe() {
     return ends;
 }
 
+/// The same of a pseudo-terminal.
+std::array<int, 2> makeTerminal() {
+    const int read = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (read < 0 || grantpt(read) != 0 || unlockpt(read) != 0) fail("posix_openpt");
+    const char* const name = ptsname(read);
+    const int write = name == nullptr ? -1 : open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (write < 0) fail("ptsname");
+    return {read, write};
+}
+
 }  // namespace
 
-Process::Process(const std::string& program, const std::vector<std::string>& arguments) {
+Process::Process(const std::string& program, const std::vector<std::string>& arguments,
+                 Stderr stderrIs) {
     // All memory is allocated before the fork.
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     const auto out = makePipe();
-    const auto err = makePipe();
+    const auto err = stderrIs == Stderr::Terminal ? makeTerminal() : makePipe();
     child_ = fork();
     if (child_ < 0) fail("fork");
     if (child_ == 0) {

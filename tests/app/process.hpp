@@ -26,9 +26,13 @@ class Process {
     /// Far more than any run of the tests takes: what it ends is a program that hangs.
     static constexpr Seconds patience{120};
 
+    /// Where its stderr goes to be read: a terminal is shown what a pipe is not.
+    enum class Stderr { Pipe, Terminal };
+
     /// Throws std::system_error if no process can be made. A program that cannot be started exits
     /// with code 127.
-    Process(const std::string& program, const std::vector<std::string>& arguments);
+    Process(const std::string& program, const std::vector<std::string>& arguments,
+            Stderr stderrIs = Stderr::Pipe);
     ~Process();
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;

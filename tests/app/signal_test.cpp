@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -116,7 +117,7 @@ TEST_F(SignalInAFrame, LeavesItWithTheOutputsOfTheFrameBefore) {
         QUADRILLE_PROGRAM,
         {"--headless", "--scene", scene, "--frames", "1000", "--report-every", "1e-9", "--json",
          file("run.json"), "--csv", file("frames.csv"), "--dump-state", file("state.csv"),
-         "--dump-events", file("events.csv"), "--save", file("snapshot")});
+         "--dump-events", file("events.csv"), "--save", file("snapshot"), "--save-every", "3"});
     ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "frames 10 "); }))
         << process.err();
     std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -136,6 +137,20 @@ TEST_F(SignalInAFrame, LeavesItWithTheOutputsOfTheFrameBefore) {
     const Json resumed = summaryOf({"--load", file("snapshot"), "--frames", "0"});
     EXPECT_EQ(resumed["state_hash"], summary["state_hash"]);
     EXPECT_EQ(resumed["steps_done"], summary["steps_done"]);
+}
+
+/// What a terminal shows of a frame that nothing interrupts.
+TEST_F(SignalInAFrame, FindsItShownOnATerminal) {
+    Process process(QUADRILLE_PROGRAM, {"--headless", "--scene", crushes(), "--frames", "1000"},
+                    Process::Stderr::Terminal);
+    ASSERT_TRUE(process.waitUntil([&] { return contains(process.err(), " in the next"); }));
+    const std::regex line(R"(frame \d+ of 1000, \d+ %, [^,]+ left, and 1 s in the next)");
+    EXPECT_TRUE(std::regex_search(process.err(), line)) << process.err();
+    EXPECT_FALSE(contains(process.err(), ", 0 s left")) << process.err();
+    process.sendSignal(SIGTERM);
+    const ProcessResult result = process.finish();
+    EXPECT_EQ(result.exitCode, 128 + SIGTERM);
+    EXPECT_TRUE(result.err.ends_with("\r\x1b[K")) << result.err;
 }
 
 class DeadlySignal : public ProgramTest, public testing::WithParamInterface<int> {};

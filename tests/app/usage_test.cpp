@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,64 @@ TEST(Usage, UnknownSceneListsTheValidOnes) {
     expectUsageError({"--scene", "balancd"},
                      {"--scene", "balancd", "balanced", "balanced-scaled", "bullet", "cradle",
                       "demo13k", "imbalanced", "imbalanced-clear", "mixed-sizes", "pi", "pile"});
+}
+
+struct Mistyped {
+    Arguments arguments;
+    std::string hint;
+};
+
+void PrintTo(const Mistyped& mistyped, std::ostream* out) {
+    *out << testing::PrintToString(mistyped.arguments);
+}
+
+class MistypedName : public testing::TestWithParam<Mistyped> {};
+
+/// On the line of the error, which stands before it.
+TEST_P(MistypedName, LeadsToTheNearestOnes) {
+    const ProcessResult result = runProgram(shortRun + GetParam().arguments);
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(result.out, "");
+    const std::string line = result.err.substr(0, result.err.find('\n'));
+    EXPECT_TRUE(line.ends_with("; did you mean " + GetParam().hint + "?")) << line;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Usage, MistypedName,
+    testing::Values(
+        Mistyped{{"--presicion", "float"}, "'--precision'"},
+        Mistyped{{"--presicion=float"}, "'--precision'"},
+        Mistyped{{"--scene", "pile", "--presicion", "float"}, "'--precision'"},
+        Mistyped{{"--presicion", "half", "--law", "newton"}, "'--precision'"},
+        Mistyped{{"--lwa", "impulse", "--proflie"}, "'--law' or '--profile'"},
+        Mistyped{{"--LAW", "impulse"}, "'--law'"}, Mistyped{{"-precision"}, "'--precision'"},
+        Mistyped{{"--no-falback"}, "'--no-fallback'"},
+        Mistyped{{"--windw-size"}, "'--window-size'"},
+        Mistyped{{"--law", "continous"}, "'continuous'"},
+        Mistyped{{"--partitioner", "quad-tree"}, "'quadtree'"},
+        Mistyped{{"--precision", "duoble"}, "'double'"},
+        Mistyped{{"--resolver", "cuda-residnt"}, "'cuda-resident'"},
+        Mistyped{{"--cuda-thread", "bdoy"}, "'body'"},
+        Mistyped{{"--show", "heatmap"}, "'heat-map'"},
+        Mistyped{{"--show", "gridlines,contact"}, "'contacts'"},
+        Mistyped{{"--color-by", "sped"}, "'speed'"}, Mistyped{{"--rebuild", "evry:10"}, "'every'"},
+        Mistyped{{"--scene", "balaced"}, "'balanced'"}, Mistyped{{"balaced"}, "'balanced'"}),
+    [](const auto& test) {
+        return identifier(test.param.arguments.back()) + "_" + std::to_string(test.index);
+    });
+
+/// The snapshot excludes a scene, for which the value of the unknown option was taken.
+TEST(Usage, UnknownOptionBesideASnapshot) {
+    expectRefusal({"--headless", "--load", "run.snapshot", "--presicion", "float"}, 2,
+                  {"--presicion", "did you mean '--precision'?"});
+}
+
+TEST(Usage, NamesThatAreFarFromAllLeadNowhere) {
+    for (const Arguments& arguments :
+         {Arguments{"--frobnicate"}, Arguments{"--law", "newton"}, Arguments{"--scene", "moon"},
+          Arguments{"balanced", "pile"}}) {
+        EXPECT_FALSE(contains(runProgram(shortRun + arguments).err, "did you mean"));
+    }
 }
 
 std::string nameOf(const testing::TestParamInfo<Arguments>& test) {
@@ -117,15 +176,23 @@ INSTANTIATE_TEST_SUITE_P(Usage, ImpossibleCount,
 
 TEST(Usage, MissingValues) {
     for (const char* option :
-         {"--scene",        "--set",          "--seed",      "--partitioner", "--cell-size",
-          "--max-depth",    "--max-per-cell", "--rebuild",   "--resolver",    "--threads",
-          "--law",          "--precision",    "--dt",        "--restitution", "--duration",
-          "--report-every", "--json",         "--csv",       "--dump-state",  "--dump-events",
-          "--save",         "--load",         "--screenshot"}) {
+         {"--scene",        "--set",          "--seed",       "--partitioner", "--cell-size",
+          "--max-depth",    "--max-per-cell", "--rebuild",    "--resolver",    "--threads",
+          "--law",          "--precision",    "--dt",         "--restitution", "--duration",
+          "--report-every", "--json",         "--csv",        "--dump-state",  "--dump-events",
+          "--save",         "--load",         "--screenshot", "--save-every"}) {
         expectUsageError({option}, {option});
     }
     expectRefusal({"--headless", "--frames"}, 2, {"--frames"});
     expectRefusal({"--headless", "--entities"}, 2, {"--entities"});
+}
+
+TEST(Usage, SavingNowAndThenNeedsAFileAndFrames) {
+    expectUsageError({"--save-every", "5"}, {"--save-every", "requires", "--save"});
+    for (const char* frames : {"0", "-1", "1.5", "00", "often"}) {
+        expectUsageError({"--save", "/no/such/folder/snapshot", "--save-every", frames},
+                         {"--save-every", frames});
+    }
 }
 
 TEST(Usage, OptionGivenTwice) {

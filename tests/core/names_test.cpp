@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <quadrille/names.hpp>
 
@@ -74,6 +75,51 @@ TEST(Names, AreThoseOfTheCommandLine) {
     EXPECT_EQ(name(StaticGrid{{1, 2}}), "static-grid");
     EXPECT_EQ(name(Quadtree{1, 2}), "quadtree");
     EXPECT_EQ(name(SemiStaticQuadtree{1, 2}), "semi-static-quadtree");
+}
+
+using Strings = std::vector<std::string>;
+
+Strings nearest(std::string_view typed, const Strings& names) { return nearestNames(typed, names); }
+
+TEST(NearestNames, AreATypingErrorAway) {
+    const Strings names = {"precision", "partitioner", "profile", "law"};
+    for (const char* typed : {"precision", "presicion", "precison", "precisionn", "prexision",
+                              "rpecision", "PRECISION", "Precison"}) {
+        EXPECT_EQ(nearest(typed, names), Strings{"precision"}) << typed;
+    }
+    EXPECT_EQ(nearest("lwa", names), Strings{"law"});
+}
+
+/// Two letters that are swapped are one error, and letters that another one parts are two.
+TEST(NearestNames, CountASwapOnce) {
+    EXPECT_EQ(nearest("abdc", {"abcd"}), Strings{"abcd"});
+    EXPECT_EQ(nearest("cba", {"abc"}), Strings{});
+    EXPECT_EQ(nearest("cbadef", {"abcdef"}), Strings{"abcdef"});
+}
+
+TEST(NearestNames, MissAThirdOfTheLettersAtMost) {
+    EXPECT_EQ(nearest("xyzdefghi", {"abcdefghi"}), Strings{"abcdefghi"});
+    EXPECT_EQ(nearest("xyzwefghi", {"abcdefghi"}), Strings{});
+    EXPECT_EQ(nearest("abcdef", {"abcdefghi"}), Strings{"abcdefghi"});
+    EXPECT_EQ(nearest("abcde", {"abcdefghi"}), Strings{});
+    EXPECT_EQ(nearest("pj", {"pi"}), Strings{});
+    EXPECT_EQ(nearest("pie", {"pi"}), Strings{"pi"});
+    EXPECT_EQ(nearest("", {"pi", ""}), Strings{""});
+    EXPECT_EQ(nearest(std::string(1 << 20, 'x'), {"pi"}), Strings{});
+}
+
+TEST(NearestNames, AreThoseOfTheFewestErrors) {
+    EXPECT_EQ(nearest("balancd", {"imbalanced", "balanced", "balance"}),
+              (Strings{"balanced", "balance"}));
+    EXPECT_EQ(nearest("balaced", {"imbalanced", "balanced", "balance"}), Strings{"balanced"});
+    EXPECT_EQ(nearest("boxes", {"box", "bones", "boxer"}), (Strings{"bones", "boxer"}));
+}
+
+TEST(NearestNames, MakeAQuestion) {
+    EXPECT_EQ(didYouMean({}), "");
+    EXPECT_EQ(didYouMean(Strings{"a"}), "; did you mean 'a'?");
+    EXPECT_EQ(didYouMean(Strings{"a", "b"}), "; did you mean 'a' or 'b'?");
+    EXPECT_EQ(didYouMean(Strings{"a", "b", "c"}), "; did you mean 'a', 'b' or 'c'?");
 }
 
 TEST(Names, OfThePhasesAreAllDifferent) {

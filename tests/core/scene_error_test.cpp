@@ -73,6 +73,33 @@ TEST_F(SceneErrors, UnknownKeysAtEveryLevel) {
     }
 }
 
+TEST_F(SceneErrors, OfMistypedNamesSayWhichOnesAreNear) {
+    for (const Refused& refused : {
+             Refused{after("[setp]\ndt = 1"),
+                     ":4:1: setp: is not a known key; known here: format, "
+                     "name, seed, world, step, spawn, body, instance; did "
+                     "you mean 'step'?"},
+             Refused{step("restituion = 1"),
+                     ":5:14: step.restituion: is not a known key; known "
+                     "here: dt, gravity, restitution, law; did you mean "
+                     "'restitution'?"},
+             Refused{step("law = \"impluse\""),
+                     ":5:7: step.law: must be baseline, impulse or "
+                     "continuous; did you mean 'impulse'?"},
+             Refused{after("[[spawn]]\npattern = \"latice\""),
+                     ":5:11: spawn[0].pattern: must be \"lattice\" or \"uniform\"; did you mean "
+                     "'lattice'?"},
+             // A key that must be there is missed before another one is found to be unknown.
+             Refused{"format = 1\n[wrold]\nsize = [1, 1]\n",
+                     ":1:1: world: is missing; 'wrold' is not a known key; did you mean 'world'?"},
+             Refused{after("[[body]]\nsize = [1, 1]\npositon = [0, 0]"),
+                     ":4:1: body[0].position: is missing; 'positon' is not a known key; did you "
+                     "mean 'position'?"},
+         }) {
+        expectRefused(refused);
+    }
+}
+
 TEST_F(SceneErrors, WrongTypes) {
     for (const Refused& refused : {
              Refused{"format = \"1\"\n[world]\nsize = [1, 1]\n", ":1:10: format: "},

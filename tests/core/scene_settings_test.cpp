@@ -87,6 +87,12 @@ TEST_F(SceneSettings, FailAsTheFileWould) {
     expectRefused("world.area_per_body=3", "--set: world.area_per_body: a world has either ");
     expectRefused("spawn=[1]", "--set: spawn: must be a list of tables");
     expectRefused("stepp.dt=1", "--set: stepp: is not a known key; known here: ");
+    expectRefused("step.dtt=1",
+                  "--set: step.dtt: is not a known key; known here: dt, gravity, "
+                  "restitution, law; did you mean 'dt'?");
+    expectRefused("step.law=continous",
+                  "--set: step.law: must be baseline, impulse or "
+                  "continuous; did you mean 'continuous'?");
     expectRefused("step.time=1", "--set: step.time: is not a known key; known here: dt, ");
     expectRefused("spawn.0.colour=1", "--set: spawn[0].colour: is not a known key");
     expectRefused("body={ size = [1, 1] }", "--set: body: must be a list of tables");
@@ -103,6 +109,7 @@ TEST_F(SceneSettings, NeedAPlaceToGoTo) {
     expectRefused("spawn.-1.count=1", "--set: spawn: is a list of 2, ");
     expectRefused("spawn.99999999999999999999999.count=1", "--set: spawn: is a list of 2, ");
     expectRefused("instance.0.mass=1", "--set: instance: the scene has none");
+    expectRefused("sapwn.0.count=1", "--set: sapwn: the scene has none; did you mean 'spawn'?");
     expectRefused("seed.low=1", "--set: seed: is neither a table nor a list");
     expectRefused("world.size.0.x=1", "--set: world.size.0: is neither a table nor a list");
 }
