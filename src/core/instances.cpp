@@ -91,7 +91,7 @@ std::vector<Instance> readInstances(const std::filesystem::path& file, const Ins
 
     InstanceReader reader(file.string(), defaults);
     std::vector<Instance> result;
-    result.reserve(lines - 1);
+    result.reserve(static_cast<std::size_t>(lines - 1));
     std::string_view rest = text;
     for (std::size_t number = 1; number == 1 || !rest.empty(); ++number) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());

@@ -208,6 +208,9 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
     for (const PlacedBody& body : description.bodies) moving += !body.body.isStatic;
     for (const InstanceGroup& group : description.instances) moving += group.rows.size();
     if (options.announce) options.announce(moving, description.law);
+    if (moving > BodyRef::mostRows) {
+        fail("has " + std::to_string(moving) + " bodies, more than a world can have");
+    }
 
     WorldConfig config;
     config.seed = options.seed.value_or(description.seed);
@@ -232,7 +235,7 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
             }
             room -= 2 * Vec2(description.walls->inset, description.walls->inset);
         }
-        world.reserveBodies(moving);
+        world.reserveBodies(static_cast<std::size_t>(moving));
         const BodyMaker maker{world, options.renderers};
         for (const SpawnGroup& group : description.spawns) spawn(group, room, maker);
         for (const PlacedBody& placed : description.bodies) {
