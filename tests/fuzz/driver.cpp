@@ -187,14 +187,14 @@ class Mutator {
         const std::string& number = any(material_.pieces);
         text.replace(at, std::min(number.size(), text.size() - at), number);
     }
-    /// Mostly a number by a number, which more often gives an input that is taken.
+    /// Mostly what begins like a number by another, or too few inputs would be taken.
     void replaceWord(std::string& text, std::size_t at) {
         static constexpr std::string_view ends = " ,=[]{}\"\r\n";
         if (at > 0) at = text.find_last_of(ends, at - 1) + 1;
         const std::size_t length = std::min(text.find_first_of(ends, at), text.size()) - at;
         const auto isNumber = [](std::string_view word) {
             return !word.empty() &&
-                   (word.front() == '-' || (word.front() >= '0' && word.front() <= '9'));
+                   std::string_view("-0123456789in").find(word.front()) != word.npos;
         };
         const bool number = isNumber(std::string_view(text).substr(at, length));
         const std::string* piece = &any(material_.pieces);
