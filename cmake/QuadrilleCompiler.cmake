@@ -13,6 +13,14 @@ else()
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
     target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>)
   endif()
+  # clang warns of each loop that it does not vectorise as asked, and of '&' and '|' that save a branch.
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-pass-failed>)
+    if(NOT CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+      target_compile_options(quadrille_compiler INTERFACE
+        $<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical>)
+    endif()
+  endif()
 endif()
 # Each operation must round to the type of its operands. On 32-bit x86 that needs SSE2; a processor that
 # has none, or a compiler that keeps more digits for other reasons, has other bits and is refused.

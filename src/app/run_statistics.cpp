@@ -1,6 +1,7 @@
 #include "app/run_statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace quadrille::app {
 
@@ -30,7 +31,7 @@ FrameTimes RunStatistics::times() const {
     std::vector<double> sorted = samples_;
     std::sort(sorted.begin(), sorted.end());
     const auto quantile = [&](double q) {
-        return sorted[static_cast<std::size_t>(q * double(sorted.size() - 1) + 0.5)];
+        return sorted[static_cast<std::size_t>(std::lround(q * double(sorted.size() - 1)))];
     };
     return {.mean = totalMilliseconds_ / double(frames_),
             .median = quantile(0.5),

@@ -18,7 +18,7 @@ fs::path sceneFolder() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     if (!error) {
-        const fs::path installed = program.parent_path() / QUADRILLE_INSTALLED_SCENES;
+        fs::path installed = program.parent_path() / QUADRILLE_INSTALLED_SCENES;
         if (fs::is_directory(installed, error)) return installed;
     }
     return QUADRILLE_SOURCE_SCENES;

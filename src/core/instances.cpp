@@ -46,6 +46,10 @@ class InstanceReader {
             if (i >= 4 && !(values[i] > 0)) {
                 fail(lineNumber, at + 1, std::string(columnNames[i]) + ": must be positive");
             }
+            // Bodies keep half of their sizes.
+            if ((i == 4 || i == 5) && !(values[i] / 2 > 0)) {
+                fail(lineNumber, at + 1, std::string(columnNames[i]) + ": is too small");
+            }
             const bool last = i + 1 == columns_;
             if (last ? next != line.size() : next >= line.size() || line[next] != ',') {
                 fail(lineNumber, next + 1,
@@ -75,23 +79,27 @@ class InstanceReader {
 }  // namespace
 
 std::vector<Instance> readInstances(const std::filesystem::path& file, const Instance& defaults,
+                                    const std::string& place,
                                     const std::function<void(std::uint64_t)>& announce) {
+    const auto fail = [&](const std::string& reason) {
+        throw SceneError(place + ": " + file.string() + ": " + reason);
+    };
     std::string text;
     try {
         text = readRegularFile(file, memoryOfMachine());
     } catch (const Error& error) {
-        throw SceneError(file.string() + ": " + error.what());
+        fail(error.what());
     }
     dropByteOrderMark(text);
     const auto lines = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     if (lines > mostBodies + 2) {  // a header, and nothing behind the last line break
-        throw SceneError(file.string() + ": has more than " + std::to_string(mostBodies) + " rows");
+        fail("has more than " + std::to_string(mostBodies) + " rows");
     }
     announce(lines - 1);
 
     InstanceReader reader(file.string(), defaults);
     std::vector<Instance> result;
-    result.reserve(lines - 1);
+    result.reserve(static_cast<std::size_t>(lines - 1));
     std::string_view rest = text;
     for (std::size_t number = 1; number == 1 || !rest.empty(); ++number) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());

@@ -29,6 +29,12 @@ struct PlacedBody {
     std::string name;
 };
 
+/// A spawn group, and what begins an error about it.
+struct PlacedGroup {
+    SpawnGroup group;
+    std::string place;
+};
+
 /// The rows of an instance file.
 struct InstanceGroup {
     std::vector<Instance> rows;
@@ -42,15 +48,27 @@ struct SceneDescription {
     std::optional<Vec2> size;
     std::optional<double> areaPerBody;
     double aspect = 1.5;
+    std::string worldPlace;  ///< what begins an error about its size
     std::optional<WallsConfig> walls;
+    std::string wallsPlace;
     StepSettings step;
     std::optional<Law> law;
-    std::vector<SpawnGroup> spawns;
+    std::vector<PlacedGroup> spawns;
     std::vector<PlacedBody> bodies;
     std::vector<InstanceGroup> instances;
 };
 
 using Announce = std::function<void(std::uint64_t, std::optional<Law>)>;
+
+/// What is refused only when it is made is refused where the file asks for it.
+template <class Make>
+auto at(const std::string& place, Make&& make) {
+    try {
+        return make();
+    } catch (const Error& error) {
+        throw SceneError(place + ": " + error.what());
+    }
+}
 
 Color colorOf(SceneTable& table) { return table.color("color").value_or(Color{}); }
 
@@ -64,6 +82,7 @@ void readWorld(SceneTable table, SceneDescription& scene) {
     }
     if (aspect && scene.size) table.fail("aspect", "goes with area_per_body only");
     scene.aspect = aspect.value_or(scene.aspect);
+    scene.worldPlace = table.place(scene.size ? "size" : "area_per_body");
     if (auto walls = table.table("walls")) {
         WallsConfig config;
         config.thickness = walls->positive("thickness").value_or(config.thickness);
@@ -72,6 +91,7 @@ void readWorld(SceneTable table, SceneDescription& scene) {
         if (scene.size && 2 * config.inset >= scene.size->minCoeff()) {
             walls->fail("inset", "leaves no room inside the world");
         }
+        scene.wallsPlace = walls->place();
         walls->finish();
         scene.walls = config;
     }
@@ -115,6 +135,7 @@ void readSpawn(SceneTable table, SceneDescription& scene) {
         table.fail(size ? "side" : "size", "a group has either size or side");
     }
     if (group.sides && !(group.sides->x() > 0)) table.fail("side", "must be positive");
+    if (group.sides && !(group.sides->x() / 2 > 0)) table.fail("side", "is too small");
     group.size = size.value_or(group.size);
 
     const auto mass = table.positive("mass");
@@ -135,7 +156,7 @@ void readSpawn(SceneTable table, SceneDescription& scene) {
     group.jitter = jitter.value_or(0);
     group.color = colorOf(table);
     table.finish();
-    scene.spawns.push_back(group);
+    scene.spawns.push_back({group, table.place()});
 }
 
 void readBody(SceneTable table, SceneDescription& scene) {
@@ -170,7 +191,8 @@ void readInstance(SceneTable table, const std::filesystem::path& folder, const A
     const auto announceRows = [&](std::uint64_t rows) {
         if (announce) announce(before + rows, scene.law);
     };
-    scene.instances.push_back({readInstances(folder / file, defaults, announceRows), color});
+    scene.instances.push_back(
+        {readInstances(folder / file, defaults, table.place("file"), announceRows), color});
 }
 
 SceneDescription readDescription(const std::filesystem::path& path, const SceneOptions& options) {
@@ -206,13 +228,16 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
         if (*options.entities > mostBodies) {
             fail("a spawn group has at most " + std::to_string(mostBodies) + " bodies");
         }
-        description.spawns.front().count = *options.entities;
+        description.spawns.front().group.count = *options.entities;
     }
     std::uint64_t moving = 0;
-    for (const SpawnGroup& group : description.spawns) moving += group.count;
+    for (const PlacedGroup& spawned : description.spawns) moving += spawned.group.count;
     for (const PlacedBody& body : description.bodies) moving += !body.body.isStatic;
     for (const InstanceGroup& group : description.instances) moving += group.rows.size();
     if (options.announce) options.announce(moving, description.law);
+    if (moving > BodyRef::mostRows) {
+        fail("has " + std::to_string(moving) + " bodies, more than a world can have");
+    }
 
     WorldConfig config;
     config.seed = options.seed.value_or(description.seed);
@@ -226,20 +251,24 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
     try {
         Scene scene{.name = description.name,
                     .seed = config.seed,
-                    .world = World(config),
+                    .world = at(description.worldPlace, [&] { return World(config); }),
                     .step = description.step,
                     .law = description.law};
         World& world = scene.world;
         Vec2 room = config.size;
         if (description.walls) {
-            for (const Entity wall : world.addWalls(*description.walls)) {
+            const auto walls =
+                at(description.wallsPlace, [&] { return world.addWalls(*description.walls); });
+            for (const Entity wall : walls) {
                 if (options.renderers) world.add(wall, RectangleRenderer{{0x26, 0x30, 0x3b}});
             }
             room -= 2 * Vec2(description.walls->inset, description.walls->inset);
         }
-        world.reserveBodies(moving);
+        world.reserveBodies(static_cast<std::size_t>(moving));
         const BodyMaker maker{world, options.renderers};
-        for (const SpawnGroup& group : description.spawns) spawn(group, room, maker);
+        for (const PlacedGroup& spawned : description.spawns) {
+            at(spawned.place, [&] { spawn(spawned.group, room, maker); });
+        }
         for (const PlacedBody& placed : description.bodies) {
             const Entity entity =
                 maker.make(placed.transform, placed.collider, placed.body, placed.color);

@@ -65,13 +65,18 @@ const toml::node* SceneTable::find(std::string_view key) {
     return table_->get(key);
 }
 
-void SceneTable::fail(std::string_view key, const std::string& reason) const {
+std::string SceneTable::place(std::string_view key) const {
     const toml::node* value = table_->get(key);
     const toml::node& guilty = value != nullptr ? *value : *table_;
     const std::string where =
         isSetting(guilty) ? std::string(settingSource) : placeOf(guilty.source(), file_);
-    const std::string mistyped = value == nullptr ? mistypedAs(key) : "";
-    throw SceneError(where + ": " + path_ + std::string(key) + ": " + reason + mistyped);
+    const std::string full = path_ + std::string(key);
+    return where + ": " + full.substr(0, full.size() - (key.empty() && !path_.empty()));
+}
+
+void SceneTable::fail(std::string_view key, const std::string& reason) const {
+    const std::string mistyped = table_->get(key) == nullptr ? mistypedAs(key) : "";
+    throw SceneError(place(key) + ": " + reason + mistyped);
 }
 
 std::string SceneTable::mistypedAs(std::string_view key) const {
@@ -139,6 +144,8 @@ std::optional<Vec2> SceneTable::vector(std::string_view key) { return numbers(ke
 std::optional<Vec2> SceneTable::positiveVector(std::string_view key) {
     const auto value = numbers(key, "[width, height]");
     if (value && !(value->minCoeff() > 0)) fail(key, "must be positive");
+    // Bodies keep half of their sizes.
+    if (value && !(value->minCoeff() / 2 > 0)) fail(key, "is too small");
     return value;
 }
 

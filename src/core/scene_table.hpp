@@ -29,6 +29,7 @@ class SceneTable {
     std::optional<bool> boolean(std::string_view key);
     std::optional<std::string> string(std::string_view key);
     std::optional<Vec2> vector(std::string_view key);
+    /// Each may be halved and is still positive.
     std::optional<Vec2> positiveVector(std::string_view key);
     /// [low, high] of numbers, low <= high.
     std::optional<Vec2> range(std::string_view key);
@@ -47,7 +48,11 @@ class SceneTable {
 
     bool has(std::string_view key) const { return table_->contains(key); }
 
-    /// Throws SceneError at the key's value, or at the table if it has no such key.
+    /// What begins an error about the key's value, or about the table if it has no such key or none
+    /// is given: "file:line:column: key".
+    std::string place(std::string_view key = {}) const;
+
+    /// Throws SceneError at `place`.
     [[noreturn]] void fail(std::string_view key, const std::string& reason) const;
 
     /// Call when all keys have been asked for.

@@ -122,7 +122,8 @@ template <class Set>
 void readSet(SnapshotReader& in, Set& set) {
     const auto rows = in.number<std::uint64_t>();
     if (rows > BodyRef::mostRows || rows > in.left()) in.fail("ends too early");
-    set.forEachColumn([&](ColumnInfo, auto& column) { read(in, column, rows); }, set);
+    set.forEachColumn(
+        [&](ColumnInfo, auto& column) { read(in, column, static_cast<std::size_t>(rows)); }, set);
     if (set.size() != rows) in.fail("has columns of different lengths");
 }
 

@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,24 @@ TEST(Simulation, CountsStepsAndTime) {
     sim.resumeAt(100);
     EXPECT_EQ(sim.step().step, 101u);
     EXPECT_EQ(sim.time(), 101 * dt);
+}
+
+// Parts of such steps are no time at all.
+TEST(Simulation, StepsOfTheShortestTimeEnd) {
+    for (const ResolverKind resolver : {ResolverKind::Sequential, ResolverKind::Threads}) {
+        Simulation shortest(crowd(), {.resolver = resolver,
+                                      .threads = 2,
+                                      .step = {.dt = std::numeric_limits<double>::denorm_min()}});
+        shortest.run(2);
+        EXPECT_EQ(shortest.stepsDone(), 2u);
+
+        World world;
+        makeBox(world, {0, 0}, moving(1.25));
+        Simulation late(std::move(world), {.resolver = resolver, .threads = 2, .step = {.dt = 1}});
+        late.resumeAt(std::uint64_t(1) << 52);
+        late.run(2);
+        EXPECT_EQ(late.time(), 0x1p52 + 2);
+    }
 }
 
 TEST(Simulation, MovesBodiesByVelocityAndGravity) {

@@ -1,15 +1,19 @@
 // Changes files of a corpus at random and tries them: fuzzing with any compiler. An input is made
 // of the seed and its number and of nothing else, so that one that was found is found again.
 //
-//   quadrille_fuzz_KIND CORPUS [--seed N] [--inputs N] [--first N] [--write FILE]
+//   quadrille_fuzz_KIND CORPUS [--dict FILE] [--seed N] [--inputs N | --seconds N] [--first N]
+//                       [--write FILE]
 //
-// `--first N --inputs 1` repeats input N, and --write keeps it as a file.
+// `--first N --inputs 1` repeats input N, and --write keeps it as a file. A dictionary is one of
+// libFuzzer's, for inputs that are text; without one, changes put in numbers as they lie in a
+// binary file.
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
+#include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -17,6 +21,7 @@
 #include <iostream>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <sys/time.h>
@@ -81,10 +86,52 @@ std::vector<std::string> specialNumbers() {
     return result;
 }
 
+/// What stands between the quotes of an entry, with \\, \" and \xAB for other characters.
+std::string unescaped(std::string_view entry) {
+    std::string result;
+    for (std::size_t i = 0; i < entry.size(); ++i) {
+        if (entry[i] != '\\') {
+            result += entry[i];
+        } else if (++i < entry.size() && entry[i] != 'x') {
+            result += entry[i];
+        } else {
+            unsigned value = 0;
+            const std::string_view digits = entry.substr(std::min(i + 1, entry.size()), 2);
+            const char* const end = digits.data() + digits.size();
+            if (digits.size() != 2 || std::from_chars(digits.data(), end, value, 16).ptr != end) {
+                throw std::invalid_argument("not an entry: " + std::string(entry));
+            }
+            result += static_cast<char>(value);
+            i += 2;
+        }
+    }
+    return result;
+}
+
+std::vector<std::string> readDictionary(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    std::vector<std::string> result;
+    for (std::string line; std::getline(in, line);) {
+        if (line.empty() || line.front() == '#') continue;
+        if (line.size() < 3 || line.front() != '"' || line.back() != '"') {
+            throw std::invalid_argument("not an entry: " + line);
+        }
+        result.push_back(unescaped(std::string_view(line).substr(1, line.size() - 2)));
+    }
+    if (result.empty()) throw std::invalid_argument(file.string() + " has no entries");
+    return result;
+}
+
+struct Material {
+    std::vector<std::string> corpus;
+    std::vector<std::string> pieces;  ///< that changes put in
+    bool text = false;
+};
+
 class Mutator {
   public:
-    Mutator(const std::vector<std::string>& corpus, std::uint64_t seed, std::uint64_t number)
-        : corpus_(corpus), random_(seed * 0x9e3779b97f4a7c15u + number) {}
+    Mutator(const Material& material, std::uint64_t seed, std::uint64_t number)
+        : material_(material), random_(seed * 0x9e3779b97f4a7c15u + number) {}
 
     std::string input() {
         std::string text = any();
@@ -96,10 +143,12 @@ class Mutator {
     std::size_t pick(std::size_t low, std::size_t high) {
         return static_cast<std::size_t>(random_.integer(std::int64_t(low), std::int64_t(high)));
     }
-    const std::string& any() { return corpus_[pick(0, corpus_.size() - 1)]; }
+    const std::string& any() { return any(material_.corpus); }
+    const std::string& any(const std::vector<std::string>& list) {
+        return list[pick(0, list.size() - 1)];
+    }
 
     void change(std::string& text) {
-        static const std::vector<std::string> numbers = specialNumbers();
         const std::size_t at = pick(0, text.size());
         const std::size_t length = std::min(pick(0, 32), text.size() - at);
         switch (pick(0, 11)) {
@@ -125,15 +174,42 @@ class Mutator {
                 text.replace(at, length, other, pick(0, other.size()), length);
                 break;
             }
-            default: {  // most faults lie in numbers that could have been written
-                const std::string& number = numbers[pick(0, numbers.size() - 1)];
-                text.replace(at, std::min(number.size(), text.size() - at), number);
+            case 6:
+                if (material_.text) return pick(0, 1) == 0 ? insert(text, at) : repeat(text, at);
+                [[fallthrough]];
+            default:  // most faults lie in what could have been written
+                material_.text ? replaceWord(text, at) : replaceNumber(text, at);
                 break;
-            }
         }
     }
 
-    const std::vector<std::string>& corpus_;
+    void replaceNumber(std::string& text, std::size_t at) {
+        const std::string& number = any(material_.pieces);
+        text.replace(at, std::min(number.size(), text.size() - at), number);
+    }
+    /// Mostly what begins like a number by another, or too few inputs would be taken.
+    void replaceWord(std::string& text, std::size_t at) {
+        static constexpr std::string_view ends = " ,=[]{}\"\r\n";
+        if (at > 0) at = text.find_last_of(ends, at - 1) + 1;
+        const std::size_t length = std::min(text.find_first_of(ends, at), text.size()) - at;
+        const auto isNumber = [](std::string_view word) {
+            return !word.empty() &&
+                   std::string_view("-0123456789in").find(word.front()) != word.npos;
+        };
+        const bool number = isNumber(std::string_view(text).substr(at, length));
+        const std::string* piece = &any(material_.pieces);
+        for (int i = 0; i < 20 && isNumber(*piece) != number; ++i) piece = &any(material_.pieces);
+        text.replace(at, length, *piece);
+    }
+    void insert(std::string& text, std::size_t at) { text.insert(at, any(material_.pieces)); }
+    void repeat(std::string& text, std::size_t at) {
+        const std::string& piece = any(material_.pieces);
+        std::string many;
+        for (std::size_t i = pick(0, 400); i > 0; --i) many += piece;
+        text.insert(at, many);
+    }
+
+    const Material& material_;
     Random random_;
 };
 
@@ -152,8 +228,9 @@ std::vector<std::string> read(const std::filesystem::path& folder) {
 }
 
 struct Plan {
-    std::filesystem::path corpus, write;
+    std::filesystem::path corpus, dictionary, write;
     std::uint64_t seed = 1, first = 0, inputs = 1000;
+    std::uint64_t seconds = 0;  ///< instead of a number of inputs
 };
 
 Plan planOf(int argc, char** argv) {
@@ -164,6 +241,10 @@ Plan planOf(int argc, char** argv) {
         const std::string option = argv[i];
         if (option == "--write") {
             plan.write = argv[i + 1];
+        } else if (option == "--dict") {
+            plan.dictionary = argv[i + 1];
+        } else if (option == "--seconds") {
+            plan.seconds = std::stoull(argv[i + 1]);
         } else if (option == "--seed") {
             plan.seed = std::stoull(argv[i + 1]);
         } else if (option == "--first") {
@@ -177,18 +258,28 @@ Plan planOf(int argc, char** argv) {
     return plan;
 }
 
+Material materialOf(const Plan& plan) {
+    const bool text = !plan.dictionary.empty();
+    Material material{.corpus = read(plan.corpus),
+                      .pieces = text ? readDictionary(plan.dictionary) : specialNumbers(),
+                      .text = text};
+    if (material.corpus.empty()) throw std::invalid_argument(plan.corpus.string() + " is empty");
+    return material;
+}
+
 int run(const Plan& plan) {
-    const std::vector<std::string> corpus = read(plan.corpus);
-    if (corpus.empty()) throw std::invalid_argument(plan.corpus.string() + " is empty");
-    std::cout << "seed " << plan.seed << ", " << plan.inputs << " inputs from number " << plan.first
-              << std::endl;
-    for (const std::string& input : corpus) {
+    const Material material = materialOf(plan);
+    std::cout << "seed " << plan.seed << ", inputs from number " << plan.first << std::endl;
+    for (const std::string& input : material.corpus) {
         if (!tryInput(input)) throw Finding("a file of the corpus is refused");
     }
-    std::uint64_t taken = 0;
-    for (std::uint64_t i = plan.first; i < plan.first + plan.inputs; ++i) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::seconds(plan.seconds);
+    std::uint64_t tried = 0, taken = 0;
+    for (; plan.seconds > 0 ? Clock::now() < end : tried < plan.inputs; ++tried) {
+        const std::uint64_t i = plan.first + tried;
         current = static_cast<std::sig_atomic_t>(i);
-        const std::string input = Mutator(corpus, plan.seed, i).input();
+        const std::string input = Mutator(material, plan.seed, i).input();
         if (!plan.write.empty()) std::ofstream(plan.write, std::ios::binary) << input;
         const itimerval limit{{0, 0}, {mostSeconds, 0}};
         setitimer(ITIMER_PROF, &limit, nullptr);
@@ -199,7 +290,7 @@ int run(const Plan& plan) {
             return 1;
         }
     }
-    std::cout << taken << " taken, " << plan.inputs - taken << " refused\n";
+    std::cout << tried << " inputs: " << taken << " taken, " << tried - taken << " refused\n";
     return 0;
 }
 

@@ -145,15 +145,15 @@ void StaticGridPartitioner<Real>::sortIntoStrips(const BodyView<Real>& bodies, u
     });
     std::uint64_t place = 0;
     for (std::size_t s = 0; s < strips_.size(); ++s) {
-        strips_[s].firstMember = place;
+        strips_[s].firstMember = static_cast<std::size_t>(place);
         for (unsigned worker = 0; worker < workers; ++worker) {
             std::uint32_t& places = places_[worker * stride + s];
             place += std::exchange(places, static_cast<std::uint32_t>(place));
         }
-        strips_[s].lastMember = place;
+        strips_[s].lastMember = static_cast<std::size_t>(place);
     }
     requireCountable(place);
-    members_.resize(place);
+    members_.resize(static_cast<std::size_t>(place));
     team_.run(workers, [&](unsigned worker) {
         const std::size_t begin = count * worker / workers;
         const std::size_t end = count * (worker + 1) / workers;
@@ -170,7 +170,7 @@ template <class Real>
 void StaticGridPartitioner<Real>::reserveEntries(std::uint64_t entries) {
     requireCountable(entries);
     Cells& cells = this->partition_.cells;
-    cells.bodies.resize(entries);
+    cells.bodies.resize(static_cast<std::size_t>(entries));
     cells.offsets.back() = static_cast<std::uint32_t>(entries);
 }
 

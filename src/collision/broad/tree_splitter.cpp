@@ -158,7 +158,8 @@ void TreeSplitter::chooseParts(unsigned workers, std::size_t enough) {
 void TreeSplitter::addParts(std::size_t enough, int level, std::uint32_t x, std::uint32_t y) {
     const std::size_t square = number(level, x, y);
     const bool allCover = covering_[square] == touching_[square];
-    if (level < depth_ && !isLeaf(touching_[square], enough, maxDepth_ - level, allCover)) {
+    const auto touching = static_cast<std::size_t>(touching_[square]);
+    if (level < depth_ && !isLeaf(touching, enough, maxDepth_ - level, allCover)) {
         for (std::uint32_t k = 0; k < 4; ++k) {
             addParts(enough, level + 1, 2 * x + (k & 1), 2 * y + (k >> 1));
         }
@@ -185,14 +186,14 @@ TreeReference* TreeSplitter::makeRoom(unsigned workers) {
     if (next > std::numeric_limits<std::uint32_t>::max()) {
         throw Error("quadtree: its nodes hold more references than 32 bits can count");
     }
-    TreeReference* const out = references_.reserve(next);
+    TreeReference* const out = references_.reserve(static_cast<std::size_t>(next));
     nodes_.clear();
-    next = 0;
+    std::size_t first = 0;
     for (const Part& part : parts_) {
         TreeNode node = nodeAt(part.x, part.y, maxDepth_ - part.level);
-        node.references = out + next;
-        node.count = touching_[part.square];
-        next += node.count;
+        node.references = out + first;
+        node.count = static_cast<std::size_t>(touching_[part.square]);
+        first += node.count;
         nodes_.push_back(node);
     }
     return out;

@@ -126,7 +126,7 @@ class Bursts {
     }
     Entry& entryOf(std::uint32_t row) {
         if (2 * used_ >= entries_.size()) grow();
-        std::size_t i = mix64(row) & (entries_.size() - 1);
+        std::size_t i = static_cast<std::size_t>(mix64(row)) & (entries_.size() - 1);
         while (entries_[i].cell == number_ && entries_[i].row != row) {
             i = (i + 1) & (entries_.size() - 1);
         }

@@ -401,7 +401,8 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
     double to = std::min(step.to, horizon_);
     // Threads share out the events of a stretch. Many stretches a step cost more than they bring.
     const double stretch = shared_ ? sharedStretch() : 0;
-    const bool shares = stretch >= (step.to - now) / 16;
+    // A stretch may be so short that time stands still.
+    const bool shares = now + stretch > now && stretch >= (step.to - now) / 16;
     if (shares) to = std::min(to, now + stretch);
     const Motion motion = motionOf(bodies);
     const Search search(motion, neighbours_, stamps_, sketches_);

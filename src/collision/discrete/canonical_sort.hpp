@@ -22,11 +22,12 @@ class CanonicalSort {
             contacts.begin(), contacts.end(), [](const auto& c) { return c.sinceStart == 0; }));
         const std::uint64_t later = contacts.size() - atStart;
         const Real perSecond = static_cast<Real>(later) / dt;
-        const auto bucketOf = [&](const PendingContact<Real>& c) -> std::uint64_t {
-            if (c.sinceStart == 0) return c.priority * atStart >> 32;
+        const auto bucketOf = [&](const PendingContact<Real>& c) -> std::size_t {
+            if (c.sinceStart == 0) return static_cast<std::size_t>(c.priority * atStart >> 32);
             const Real bucket = c.sinceStart * perSecond;
             const bool inside = bucket < static_cast<Real>(later - 1);
-            return atStart + (inside ? static_cast<std::uint64_t>(bucket) : later - 1);
+            return static_cast<std::size_t>(
+                atStart + (inside ? static_cast<std::uint64_t>(bucket) : later - 1));
         };
 
         if (contacts.size() > ends_.capacity()) ends_.reserve(2 * contacts.size());
