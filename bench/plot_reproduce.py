@@ -44,9 +44,11 @@ def speedup(folder):
     for axes, law in zip(panels, ("baseline", "impulse")):
         for scheme in dict.fromkeys(r["scheme"] for r in table):
             of_scheme = [r for r in table if r["scheme"] == scheme and r["law"] == law]
+            measured = [r for r in of_scheme if r["mean_ms"] != "-"]
             kind, resolver = scheme.split(", ")
             bodies = [int(r["bodies"]) for r in of_scheme]
-            axes.plot(bodies, [float(r["mean_ms"]) for r in of_scheme], color=COLOURS[kind],
+            axes.plot([int(r["bodies"]) for r in measured],
+                      [float(r["mean_ms"]) for r in measured], color=COLOURS[kind],
                       linestyle="-" if resolver == "cuda" else "--", marker="o", markersize=3.5,
                       label=scheme)
             program = [(n, float(r["report_program_ms"])) for n, r in zip(bodies, of_scheme)
@@ -129,8 +131,10 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     speedup(folder)
-    cells(folder)
-    profile(folder)
+    if (folder / "cells.csv").exists():
+        cells(folder)
+    if (folder / "profile.csv").exists():
+        profile(folder)
 
 
 if __name__ == "__main__":
