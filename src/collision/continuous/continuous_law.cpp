@@ -541,6 +541,7 @@ std::size_t ContinuousLaw<Real, Path>::bytes() const {
         stamps_.capacity() * sizeof(std::uint32_t) + found_.capacity() * sizeof(Found) +
         eventsOf_.capacity() * sizeof(std::uint32_t) + records_.capacity() * sizeof(ContactRecord);
     for (const Found& found : found_) sum += found.events.bytes();
+    sum += events_.gathered->capacity() * sizeof(std::uint64_t);
     return shared_ ? sum + shared_->bytes() : sum;
 }
 

@@ -44,10 +44,11 @@ struct EventLoopState {
 
     std::vector<BodyRef> supports;
 
+    /// Without what several loops have together.
     std::size_t bytes() const {
         return queue.bytes() + bursts.bytes() + groupA.bytes() + groupB.bytes() +
                (changed.capacity() + 2 * separated.capacity() + groupChanged.capacity() +
-                2 * gathered->capacity() + supports.capacity()) *
+                supports.capacity()) *
                    sizeof(std::uint32_t);
     }
 };
