@@ -185,7 +185,8 @@ TEST(CudaResolver, SaysHowMuchMemoryItLacks) {
 
 TEST(CudaResolver, IsADeviceErrorWithoutADevice) {
     if (findCudaDevice().usable()) GTEST_SKIP() << "there is a device";
-    EXPECT_THROW(Simulation(someBoxes(5), {.resolver = ResolverKind::Cuda}), DeviceError);
+    EXPECT_THROW(Simulation(someBoxes(5), {.law = Law::Impulse, .resolver = ResolverKind::Cuda}),
+                 DeviceError);
     Simulation sim(someBoxes(5),
                    {.law = Law::Impulse, .resolver = ResolverKind::Cuda, .fallback = true});
     EXPECT_EQ(sim.config().resolver, ResolverKind::Sequential);
