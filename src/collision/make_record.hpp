@@ -2,8 +2,11 @@
 
 #include <cstdint>
 
+#include <quadrille/detail/host_device.hpp>
+
 #include "collision/contact_record.hpp"
 #include "collision/rules/baseline_contact.hpp"
+#include "collision/rules/event_rules.hpp"
 #include "collision/rules/impulse_contact.hpp"
 #include "collision/rules/step_parameters.hpp"
 
@@ -53,6 +56,22 @@ ContactRecord makeRecord(std::uint32_t a, BodyRef b, const BaselineOutcome<Real>
             .impulseY = alongX ? 0 : impulse,
             .approachX = alongX ? approach : 0,
             .approachY = alongX ? 0 : approach};
+}
+
+/// The same for an event of the law `continuous`.
+QUADRILLE_HD inline ContactRecord makeRecord(const PairEvent& event, const EventContact& contact,
+                                             const EventOutcomes& done) {
+    return {.time = event.time,
+            .a = event.a,
+            .b = event.b,
+            .axes = done.collided(),
+            .senseX = contact.senseX,
+            .senseY = contact.senseY,
+            .collided = true,
+            .impulseX = done.x.impulse,
+            .impulseY = done.y.impulse,
+            .approachX = done.x.approach,
+            .approachY = done.y.approach};
 }
 
 }  // namespace quadrille

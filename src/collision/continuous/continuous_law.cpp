@@ -9,6 +9,7 @@
 #include <quadrille/error.hpp>
 
 #include "collision/integrate.hpp"
+#include "collision/rules/closeness.hpp"
 
 namespace quadrille {
 
@@ -336,14 +337,9 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     const auto boundOf = [&](double speed) { return gain * (speed + gained); };
     bounds_.common = boundOf(outliers ? typical : fastest_);
     bounds_.own = nullptr;
-    // The rest covers the rounding of positions, in events and by edits, and what counts as
-    // touching.
-    const double room = 2 * touchTolerance * largest_;
-    constexpr double eps =
-        (8 + mostEdits / 2) * static_cast<double>(std::numeric_limits<Real>::epsilon());
     farthest_ += boundOf(fastest_) * life;
     const auto wayAt = [&](double bound) {
-        return static_cast<Real>(bound * life * (1 + 1e-6) + eps * farthest_ + room);
+        return static_cast<Real>(reachOfLife<Real>(bound, life, farthest_, largest_, mostEdits));
     };
     Reach<Real> reach(std::max(wayAt(bounds_.common), std::numeric_limits<Real>::min()));
     if (outliers) {
@@ -521,14 +517,8 @@ template <class Real, class Path>
 bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const Search& search,
                                           const EventWindow& window, double now, Step<Real>& step) {
     if (!shared_) return false;
-    // Both bodies get on by the fastest's way at most, and positions and times are rounded; what
-    // touches, or rests on what has just left, is near.
-    constexpr double eps = 64 * machineEpsilon<Real>;
-    constexpr double epsTime = 64 * machineEpsilon<double>;
-    constexpr double touching = falls ? 1e-5 : 4 * touchTolerance;
-    const double fastest = fastestAllowed();
-    const double way = 2 * fastest * (window.to - now) + eps * farthest_ +
-                       epsTime * fastest * std::abs(window.to) + touching * largest_;
+    const double way =
+        islandWay<Real>(fastestAllowed(), window.to - now, window.to, farthest_, largest_, falls);
     std::vector<ContactRecord>* const records = step.keepContacts ? &records_ : nullptr;
     return shared_->run(bodies.read(), search, events_, window, way, records, step.counts);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "collision/pairs/cell_walk.hpp"
+#include "collision/rules/closeness.hpp"
 
 namespace quadrille {
 
@@ -44,13 +45,9 @@ void EventIslands::flood(const BodyView<Real>& bodies, const Neighbours& neighbo
                          std::span<const PairEvent> events, double way, std::size_t most,
                          std::vector<std::uint32_t>& claimed) {
     const auto& m = bodies.moving;
-    constexpr double rounded = 1 + 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-    const auto near = [&](double a, double b, double halfA, double halfB) {
-        return std::abs(b - a) < (halfA + halfB) * rounded + way;
-    };
     const auto close = [&](const auto& sizes, std::uint32_t a, std::uint32_t b) {
-        return near(m.x[a], m.x[b], sizes.width(a), sizes.width(b)) &&
-               near(m.y[a], m.y[b], sizes.height(a), sizes.height(b));
+        return isNear<Real>(m.x[a], m.x[b], sizes.width(a), sizes.width(b), way) &&
+               isNear<Real>(m.y[a], m.y[b], sizes.height(a), sizes.height(b), way);
     };
     for (const PairEvent& event : events) {
         claim(event.a, claimed);

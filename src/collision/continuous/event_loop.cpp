@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision/make_record.hpp"
+
 namespace quadrille {
 
 /// Notes that the body's path is another one.
@@ -50,41 +52,20 @@ bool EventLoop<Real, Path>::resolve(const PairEvent& event, ContactRecord& recor
         if (window_.isShared() || (contact.deep && !event.withStatic())) return false;
         motion.restitution = 0;
     }
-    EventOutcome x;
-    EventOutcome y;
-    if ((contact.axes & axisX) != 0) x = collide(motion, event, 0, contact.senseX);
-    if ((contact.axes & axisY) != 0) y = collide(motion, event, 1, contact.senseY);
-    if (x.outcome == Outcome::Nothing && y.outcome == Outcome::Nothing) return false;
+    const auto pushed = [&](int along, double side) {
+        return groups_.collide(motion, event, along, side);
+    };
+    const EventOutcomes done = collide(motion, event, contact, pushed);
+    if (!done.changes()) return false;
+    if constexpr (falls) state_.mayRest = state_.mayRest || done.rests();
     changed(event.a);
     if (!event.withStatic()) changed(event.b.row());
     for (const std::uint32_t row : state_.groupChanged) {
         if (row != event.a && BodyRef::moving(row) != event.b) changed(row);
     }
     state_.groupChanged.clear();
-    record = {.time = event.time,
-              .a = event.a,
-              .b = event.b,
-              .axes = static_cast<std::uint8_t>((x.outcome == Outcome::Collision ? axisX : 0) |
-                                                (y.outcome == Outcome::Collision ? axisY : 0)),
-              .senseX = contact.senseX,
-              .senseY = contact.senseY,
-              .collided = true,
-              .impulseX = x.impulse,
-              .impulseY = y.impulse,
-              .approachX = x.approach,
-              .approachY = y.approach};
+    record = makeRecord(event, contact, done);
     return true;
-}
-
-/// Carries out one axis of an event.
-template <class Real, class Path>
-EventOutcome EventLoop<Real, Path>::collide(const Motion& motion, const PairEvent& event, int axis,
-                                            double sense) {
-    const EventOutcome outcome = quadrille::collide(
-        motion, event, axis, sense,
-        [&](int along, double side) { return groups_.collide(motion, event, along, side); });
-    if constexpr (falls) state_.mayRest = state_.mayRest || outcome.rests;
-    return outcome;
 }
 
 template class EventLoop<double, StraightPath>;

@@ -87,7 +87,6 @@ class EventLoop {
     bool separatedAlready(const PairEvent& event);
     bool isJammed(const PairEvent& event, const EventContact& contact);
     bool resolve(const PairEvent& event, ContactRecord& record);
-    EventOutcome collide(const Motion& motion, const PairEvent& event, int axis, double sense);
 
     const Search& search_;
     const Motion& motion_;

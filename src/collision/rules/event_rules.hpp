@@ -348,4 +348,30 @@ QUADRILLE_HD inline EventOutcome collide(const ExactMotion<Real, Path>& motion,
             .approach = closing};
 }
 
+/// What an event did along both axes.
+struct EventOutcomes {
+    EventOutcome x, y;
+
+    QUADRILLE_HD bool changes() const {
+        return x.outcome != Outcome::Nothing || y.outcome != Outcome::Nothing;
+    }
+    QUADRILLE_HD bool rests() const { return x.rests || y.rests; }
+    /// The axes along which the bodies collided.
+    QUADRILLE_HD std::uint8_t collided() const {
+        return static_cast<std::uint8_t>((x.outcome == Outcome::Collision ? axisX : 0) |
+                                         (y.outcome == Outcome::Collision ? axisY : 0));
+    }
+};
+
+/// Carries out an event that is no release.
+template <class Real, class Path, class Groups>
+QUADRILLE_HD inline EventOutcomes collide(const ExactMotion<Real, Path>& motion,
+                                          const PairEvent& event, const EventContact& contact,
+                                          const Groups& groups) {
+    EventOutcomes done;
+    if ((contact.axes & axisX) != 0) done.x = collide(motion, event, 0, contact.senseX, groups);
+    if ((contact.axes & axisY) != 0) done.y = collide(motion, event, 1, contact.senseY, groups);
+    return done;
+}
+
 }  // namespace quadrille
