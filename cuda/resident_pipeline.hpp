@@ -22,16 +22,24 @@ class ResidentPipeline {
   public:
     virtual ~ResidentPipeline() = default;
 
-    /// Takes over the bodies of the host as they are. Throws DeviceError.
-    virtual void load(const BodyView<Real>& bodies, PhaseClock& clock) = 0;
+    /// Whether the law, with its settings, runs here at all; else every step is the host's.
+    virtual bool runs() const { return true; }
+    /// The columns of state that the law keeps in the BodyStore.
+    virtual KeptColumns kept() const { return {}; }
 
-    /// Advances the bodies that were loaded by a step. Throws Error if a position stops being
-    /// finite, and DeviceError, after which the bodies here are no longer known.
-    virtual void step(Step<Real>& step) = 0;
+    /// Takes over the bodies of the host as they are at a time, s. Returns whether it could: a law
+    /// that keeps anchors takes bodies only where these say that they are. Throws DeviceError.
+    virtual bool load(const LawBodies<Real>& bodies, double now, PhaseClock& clock) = 0;
 
-    /// Writes positions and velocities to the rows that were loaded. Throws DeviceError, and has
-    /// then written nothing.
-    virtual void fetch(const MutableBodyView<Real>& bodies) = 0;
+    /// Advances the bodies that were loaded by a step. Returns the time up to which it has done so,
+    /// s: the end of the step, or an earlier one from which on the host has to go on. Throws Error
+    /// if a position stops being finite, and DeviceError, after which the bodies here are no longer
+    /// known.
+    virtual double step(Step<Real>& step) = 0;
+
+    /// Writes the bodies, as they are at the time up to which steps were done, to the rows that
+    /// were loaded. Throws DeviceError, and has then written nothing.
+    virtual void fetch(const LawBodies<Real>& bodies) = 0;
 
     /// Of the last step. Throws DeviceError.
     virtual const Cells& cells() = 0;
@@ -50,5 +58,11 @@ template <class Real>
 std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse(const SimulationConfig& config,
                                                             const Vec2& worldSize,
                                                             const ThreadTeam& team);
+
+/// The same for the law `continuous`, which runs there without gravity and with restitution 1.
+template <class Real>
+std::unique_ptr<ResidentPipeline<Real>> makeResidentContinuous(const SimulationConfig& config,
+                                                               const Vec2& worldSize,
+                                                               const ThreadTeam& team);
 
 }  // namespace quadrille

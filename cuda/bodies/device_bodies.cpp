@@ -12,7 +12,8 @@ DeviceBodies<Real>::DeviceBodies(DeviceSession& device) : device_(device) {
 }
 
 template <class Real>
-void DeviceBodies<Real>::load(const BodyView<Real>& view, PhaseClock& clock) {
+void DeviceBodies<Real>::load(const BodyView<Real>& view, PhaseClock& clock,
+                              std::span<const Anchor<Real>> anchors) {
     const auto& m = view.moving;
     const auto& f = view.fixed;
     PackedUpload& u = upload_;
@@ -24,9 +25,10 @@ void DeviceBodies<Real>::load(const BodyView<Real>& view, PhaseClock& clock) {
     const std::size_t mass = u.add(m.mass.values);
     entity_ = u.add(m.entity);
     created_ = u.add(m.created.numbers);
+    const std::size_t anchor = u.add(anchors);
     const std::size_t fixedX = u.add(f.x), fixedY = u.add(f.y);
     const std::size_t fixedWidth = u.add(f.halfWidth), fixedHeight = u.add(f.halfHeight);
-    const std::size_t fixedEntity = u.add(f.entity);
+    fixedEntity_ = u.add(f.entity);
     fixedCreated_ = u.add(f.created.numbers);
     u.flatten(device_.team());
     clock.finish(Phase::Flatten);
@@ -47,13 +49,13 @@ void DeviceBodies<Real>::load(const BodyView<Real>& view, PhaseClock& clock) {
                           .mass = shared(mass, m.mass),
                           .entity = u.on<const std::uint32_t>(entity_),
                           .created = numbers(created_),
-                          .anchors = nullptr,
+                          .anchors = u.on<Anchor<Real>>(anchor),
                           .rests = nullptr},
                .fixed = {.x = u.on<const Real>(fixedX),
                          .y = u.on<const Real>(fixedY),
                          .halfWidth = u.on<const Real>(fixedWidth),
                          .halfHeight = u.on<const Real>(fixedHeight),
-                         .entity = u.on<const std::uint32_t>(fixedEntity),
+                         .entity = u.on<const std::uint32_t>(fixedEntity_),
                          .created = numbers(fixedCreated_)}};
     movingCount_ = static_cast<std::uint32_t>(m.size());
     fixedCount_ = static_cast<std::uint32_t>(f.size());
@@ -156,6 +158,15 @@ template <class Real>
 CanonicalOrder DeviceBodies<Real>::hostOrder() const {
     return {{upload_.onHost<std::uint32_t>(created_)},
             {upload_.onHost<std::uint32_t>(fixedCreated_)}};
+}
+
+template <class Real>
+EventOrder DeviceBodies<Real>::hostEventOrder() const {
+    const CanonicalOrder order = hostOrder();
+    return {.moving = upload_.onHost<std::uint32_t>(entity_),
+            .fixed = upload_.onHost<std::uint32_t>(fixedEntity_),
+            .movingCreated = order.moving,
+            .fixedCreated = order.fixed};
 }
 
 template <class Real>

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "collision/law.hpp"
 #include "collision/rules/canonical_order.hpp"
+#include "collision/rules/event_order.hpp"
 #include "cuda/bodies/body_kernels.hpp"
 #include "cuda/device/device_session.hpp"
 #include "cuda/device/memory.hpp"
@@ -21,8 +23,9 @@ class DeviceBodies {
     /// `device` must outlive this.
     explicit DeviceBodies(DeviceSession& device);
 
-    /// Makes the bodies those of the host.
-    void load(const BodyView<Real>& view, PhaseClock& clock);
+    /// Makes the bodies those of the host, with the anchors of a law that has any.
+    void load(const BodyView<Real>& view, PhaseClock& clock,
+              std::span<const Anchor<Real>> anchors = {});
     /// Moves them to the end of a step, and zeroes the counts.
     void moveOn(const StepParameters<Real>& step);
     /// Copies positions and velocities to the rows that were loaded; writes nothing if that fails.
@@ -52,6 +55,8 @@ class DeviceBodies {
     /// The order of the contacts of the last step, for the host: by numbers of its own, since those
     /// of the host's bodies may have changed in the meantime.
     CanonicalOrder hostOrder() const;
+    /// The same of events.
+    EventOrder hostEventOrder() const;
 
     /// The entity in a moving row.
     std::uint32_t entityAt(std::uint32_t row) const {
@@ -64,7 +69,8 @@ class DeviceBodies {
   private:
     DeviceSession& device_;
     PackedUpload upload_{device_.budget()};
-    std::size_t entity_ = 0, created_ = 0, fixedCreated_ = 0;  // parts of it
+    // Parts of it:
+    std::size_t entity_ = 0, created_ = 0, fixedEntity_ = 0, fixedCreated_ = 0;
     Bodies<Real> bodies_{};
     std::uint32_t movingCount_ = 0, fixedCount_ = 0;
     std::uint64_t revision_ = 0;  // of the host's bodies that are here

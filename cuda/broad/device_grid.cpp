@@ -30,11 +30,13 @@ void DeviceGrid<Real>::lay(const StaticGrid& config, const Vec2& worldSize) {
 
 template <class Real>
 GridInput<Real> DeviceGrid<Real>::input() const {
-    return {bodies_.bodies(), bodies_.movingCount(), bodies_.fixedCount(), grid_, columns_};
+    return {bodies_.bodies(), bodies_.movingCount(), bodies_.fixedCount(), grid_, columns_,
+            margin_};
 }
 
 template <class Real>
-void DeviceGrid<Real>::sort() {
+void DeviceGrid<Real>::sort(Real margin) {
+    margin_ = margin;
     if (room_ == 0)
         makeRoom(2 * (std::size_t(bodies_.movingCount()) + bodies_.fixedCount()) + 1024);
     device_.fill(offsets_, 0, count_ + 1);

@@ -27,8 +27,9 @@ class DeviceGrid {
     /// Lays cells over the world. Throws Error if the cell size is impossible.
     void lay(const StaticGrid& config, const Vec2& worldSize);
 
-    /// Sorts the bodies into the cells, anew in each step.
-    void sort();
+    /// Sorts the bodies into the cells, anew; into all that they touch as long as they get on by no
+    /// more than a margin, px.
+    void sort(Real margin = 0);
     /// After a step has told how many entries there were (`entries`, where the device counts them).
     bool lacksRoom(std::uint32_t entries) const { return entries > room_; }
     /// Makes room for so many, and puts the bodies into the cells. Throws Error if 32 bits cannot
@@ -38,7 +39,7 @@ class DeviceGrid {
     void expect(std::uint32_t entries);
 
     DeviceCells cells() const;
-    CellOwnership<Real> ownership() const { return {coordinates_.data(), grid_, Real(0)}; }
+    CellOwnership<Real> ownership() const { return {coordinates_.data(), grid_, margin_}; }
     const std::uint32_t* entries() const { return offsets_.data() + count_; }
     /// The lowest moving row whose position was not finite when it was sorted, else `none`.
     const std::uint32_t* badRow() const { return badRow_.data(); }
@@ -54,6 +55,7 @@ class DeviceGrid {
     DeviceSession& device_;
     const DeviceBodies<Real>& bodies_;
     FineGrid<Real> grid_;
+    Real margin_ = 0;
     Vec2 origin_{0, 0}, cellSize_{0, 0};
     std::uint32_t columns_ = 0, count_ = 0;
     DeviceArray<CellCoordinates> coordinates_{device_.budget()};

@@ -35,7 +35,7 @@ __device__ void visitCells(const GridInput<Real>& input, std::uint32_t count, co
     if (threadIdx.x == 0) wides = 0;
     __syncthreads();
     const auto rangeOf = [&](BodyRef body) {
-        const Box<Real> box = boxOf(input.bodies, body);
+        const Box<Real> box = inflated(boxOf(input.bodies, body), input.margin);
         return input.grid.range(box.x, box.y, box.halfWidth, box.halfHeight);
     };
     const std::uint32_t i = threadNumber();

@@ -21,6 +21,7 @@ struct GridInput {
     std::uint32_t moving, fixed;  ///< rows
     FineGrid<Real> grid;
     std::uint32_t columns;
+    Real margin;  ///< px, added to half extents
 };
 
 /// The coordinates of each of the grid's cells.

@@ -1,54 +1,23 @@
 #include "cuda/resident/resident_impulse.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <variant>
 
 #include "collision/integrate.hpp"
 #include "cuda/device/range.hpp"
+#include "cuda/resident/resident_grid.hpp"
 
 namespace quadrille::cuda {
 
-namespace {
-
-/// The mean extent of moving bodies along the axis on which it is larger, px.
 template <class Real>
-double meanExtent(const BodyView<Real>& bodies) {
-    const auto mean = [&](const ColumnView<Real>& half) {
-        if (half.uniform()) return 2 * static_cast<double>(half.common);
-        double sum = 0;
-        for (const Real value : half.values) sum += static_cast<double>(value);
-        return 2 * sum / static_cast<double>(half.values.size());
-    };
-    return std::max(mean(bodies.moving.halfWidth), mean(bodies.moving.halfHeight));
-}
-
-/// The grid that the configuration names. With another partitioner, cells of twice the mean extent
-/// of a body: so a body touches few, and few bodies that do not overlap fit into one, however
-/// crowded a part of the world is. In a sparse world they are larger, up to a quarter of a body in
-/// each, and along an axis there are no more than a grid can have.
-template <class Real>
-StaticGrid gridFor(const PartitionerConfig& config, const BodyView<Real>& bodies,
-                   const Vec2& worldSize) {
-    if (const auto* grid = std::get_if<StaticGrid>(&config)) return *grid;
-    constexpr double cellsPerBody = 4, fewest = 1024, mostAlongAnAxis = 65'000;
-    const double most = cellsPerBody * static_cast<double>(bodies.moving.size()) + fewest;
-    double side = bodies.moving.size() > 0 ? 2 * meanExtent(bodies) : worldSize.maxCoeff();
-    side = std::max({side, std::sqrt(worldSize.x() * worldSize.y() / most),
-                     worldSize.maxCoeff() / std::min(mostAlongAnAxis, most)});
-    return {{side, side}};
-}
-
-}  // namespace
-
-template <class Real>
-void ResidentImpulse<Real>::load(const BodyView<Real>& bodies, PhaseClock& clock) {
+bool ResidentImpulse<Real>::load(const LawBodies<Real>& all, double, PhaseClock& clock) {
+    const BodyView<Real> bodies = all.read();
     bodies_.load(bodies, clock);
-    grid_.lay(gridFor(config_.partitioner, bodies, worldSize_), worldSize_);
+    grid_.lay(gridFor(config_.partitioner, bodies.moving.size(), meanExtent(bodies), worldSize_),
+              worldSize_);
     hostCounts_.reserve(1);
     map_.load(bodies);
     if (!map_.empty()) starts_.reserve(bodies.moving.size());
+    return true;
 }
 
 template <class Real>
@@ -73,7 +42,7 @@ ResidentCounts ResidentImpulse<Real>::tryStep(Step<Real>& step) {
 }
 
 template <class Real>
-void ResidentImpulse<Real>::step(Step<Real>& step) {
+double ResidentImpulse<Real>::step(Step<Real>& step) {
     const Range range("quadrille resident impulse");
     records_.clear();
     cellsHere_ = false;
@@ -102,6 +71,8 @@ void ResidentImpulse<Real>::step(Step<Real>& step) {
     step.counts.collisions += counts.step.collisions;
     step.counts.pairsTested += counts.step.tested;
     if (step.keepContacts) contacts_.fetch(counts.step.contacts, step.parameters, records_);
+    step.rebuilt = true;
+    return step.to;
 }
 
 template <class Real>

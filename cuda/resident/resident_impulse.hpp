@@ -21,9 +21,9 @@ class ResidentImpulse final : public ResidentPipeline<Real> {
     ResidentImpulse(const SimulationConfig& config, const Vec2& worldSize, const ThreadTeam& team)
         : config_(config), worldSize_(worldSize), device_(config.cuda, team) {}
 
-    void load(const BodyView<Real>& bodies, PhaseClock& clock) override;
-    void step(Step<Real>& step) override;
-    void fetch(const MutableBodyView<Real>& bodies) override { bodies_.fetch(bodies); }
+    bool load(const LawBodies<Real>& bodies, double now, PhaseClock& clock) override;
+    double step(Step<Real>& step) override;
+    void fetch(const LawBodies<Real>& bodies) override { bodies_.fetch(bodies); }
 
     const Cells& cells() override;
     std::span<const ContactRecord> contacts() override { return records_; }

@@ -25,6 +25,7 @@ struct StepReport {
     std::uint64_t collisions = 0;   ///< contacts that exchanged an impulse
     std::uint64_t pairsTested = 0;  ///< pairs whose boxes were compared
     bool rebuilt = false;           ///< the partition was built in this step
+    bool leftToHost = false;        ///< the device left the step, or the rest of it, to the host
     std::uint64_t missedPairs = 0;  ///< only with SimulationConfig::countMissedPairs
     double auditSeconds = 0;        ///< what counting them took
     /// Pairs that a complete broad phase shows; counted if `audited`, as missedPairs are.

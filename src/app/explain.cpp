@@ -31,6 +31,19 @@ std::string_view aboutOf(Law law) {
     return "";
 }
 
+/// Which steps a resolver that keeps the bodies on a device leaves to the host.
+std::string stepsOfHost(const SimulationConfig& config, const ModelFeatures& f) {
+    const bool exact = config.law == Law::Continuous;
+    if (exact && (f.gravity || f.inelastic)) {
+        return "all: with gravity or loss, this law does not run on the device";
+    }
+    std::string left = exact ? "the first, those after edits, and too crowded ones" : "";
+    if (config.countMissedPairs) {
+        left += std::string(left.empty() ? "" : "; ") + "those whose missed pairs are counted";
+    }
+    return left;
+}
+
 /// What of a step that runs on the device, and what of it costs a copy to the host.
 void explainResident(std::ostream& out, const SimulationConfig& config, const ModelFeatures& f,
                      bool window) {
@@ -40,8 +53,8 @@ void explainResident(std::ostream& out, const SimulationConfig& config, const Mo
     const bool read = f.listeners || window;
     row(out, read, "bodies read each step",
         read ? "positions and velocities are copied to the host" : "they stay on the device");
-    row(out, config.countMissedPairs, "steps on the host",
-        config.countMissedPairs ? "those whose missed pairs are counted" : "");
+    const std::string left = stepsOfHost(config, f);
+    row(out, !left.empty(), "steps on the host", left);
 }
 
 }  // namespace

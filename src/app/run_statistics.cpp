@@ -24,6 +24,7 @@ void RunStatistics::add(const StepReport& report, double milliseconds) {
     missedPairs_ += report.missedPairs;
     auditedFrames_ += report.audited;
     rebuilds_ += report.rebuilt;
+    leftToHost_ += report.leftToHost;
 }
 
 FrameTimes RunStatistics::times() const {

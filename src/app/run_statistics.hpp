@@ -46,6 +46,7 @@ class RunStatistics {
     std::uint64_t missedPairs() const { return missedPairs_; }
     std::uint64_t auditedFrames() const { return auditedFrames_; }
     std::uint64_t rebuilds() const { return rebuilds_; }
+    std::uint64_t leftToHost() const { return leftToHost_; }  ///< frames
 
   private:
     static constexpr std::size_t mostSamples = std::size_t(1) << 22;
@@ -56,7 +57,7 @@ class RunStatistics {
     std::uint64_t stride_ = 1;
     std::array<double, phaseCount> phaseSeconds_{};
     std::uint64_t contacts_ = 0, collisions_ = 0, pairsTested_ = 0, missedPairs_ = 0, rebuilds_ = 0;
-    std::uint64_t auditedFrames_ = 0;
+    std::uint64_t auditedFrames_ = 0, leftToHost_ = 0;
 };
 
 }  // namespace quadrille::app

@@ -121,6 +121,9 @@ Json summaryJson(const Run& run, const RunStatistics& statistics, const Conserve
     json["missed_pairs_frames"] =
         config.countMissedPairs ? Json(statistics.auditedFrames()) : Json(nullptr);
     json["rebuilds"] = statistics.rebuilds();
+    json["frames_left_to_host"] = config.resolver == ResolverKind::CudaResident
+                                      ? Json(statistics.leftToHost())
+                                      : Json(nullptr);
     json["kinetic_energy"] = {{"start", start.kinetic},
                               {"end", end.kinetic},
                               {"relative_drift", relativeDrift(start.kinetic, end.kinetic)}};
@@ -188,6 +191,10 @@ void printSummary(std::ostream& out, const Json& json) {
     row("pairs", json["pairs_tested"].dump() + " tested, " + json["contacts"].dump() +
                      " contacts, " + json["collisions"].dump() + " collisions, " +
                      json["rebuilds"].dump() + " rebuilds");
+    if (!json["frames_left_to_host"].is_null()) {
+        row("left to the host", json["frames_left_to_host"].dump() + " of " +
+                                    json["frames"].dump() + " frames, or the rest of them");
+    }
     if (!json["missed_pairs"].is_null()) {
         row("missed pairs", json["missed_pairs"].dump() + " by the broad phase, in " +
                                 json["missed_pairs_frames"].dump() + " frames looked at");

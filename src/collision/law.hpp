@@ -40,6 +40,7 @@ struct Step {
     bool audited = false;  ///< somebody looks at the bodies whenever the law takes over
     PhaseClock& clock;
     ResolveCounts counts{};
+    bool rebuilt = false;  ///< by who makes cells of its own: it has made them anew
 };
 
 /// What moves bodies and resolves their contacts. A discrete law is an exact one whose reach is 0

@@ -178,12 +178,12 @@ void BodyStore::place(double t) {
         columns_);
 }
 
-void BodyStore::advancedBy(BodyMirror& mirror, const Physics& physics) {
+void BodyStore::advancedBy(BodyMirror& mirror, KeptColumns kept, const Physics& physics) {
     std::visit(
-        [](auto& columns) {
+        [&](auto& columns) {
             auto& m = columns.moving;
-            m.anchors.keep(false, m.size());
-            m.rests.keep(false, m.size());
+            m.anchors.keep(kept.anchors, m.size());
+            m.rests.keep(kept.rests, m.size());
         },
         columns_);
     edits_ = Edits::None;

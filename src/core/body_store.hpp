@@ -175,8 +175,8 @@ class BodyStore {
     void newestIs(BodyMirror* mirror) { setMirror(mirror); }
 
     /// For an engine whose bodies lie elsewhere: as `advance`, but nothing is brought here, and
-    /// from here on the mirror has the newest state. Its law keeps no columns.
-    void advancedBy(BodyMirror& mirror, const Physics& physics);
+    /// from here on the mirror has the newest state.
+    void advancedBy(BodyMirror& mirror, KeptColumns kept, const Physics& physics);
 
     /// From here on the bodies are where their anchors say that they are at time `t`, in s, under
     /// the physics of the last advance(). They are placed there when somebody wants to know.

@@ -27,12 +27,21 @@ std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse(const SimulationConf
     throw DeviceError("cuda: " + findCudaDevice().reason);
 }
 
+template <class Real>
+std::unique_ptr<ResidentPipeline<Real>> makeResidentContinuous(const SimulationConfig& config,
+                                                               const Vec2& worldSize,
+                                                               const ThreadTeam& team) {
+    return makeResidentImpulse<Real>(config, worldSize, team);
+}
+
 #define QUADRILLE_INSTANTIATE(Real)                                                      \
     template std::unique_ptr<ContactLaw<Real>> makeCudaBaseline(const SimulationConfig&, \
                                                                 const ThreadTeam&);      \
     template std::unique_ptr<ContactLaw<Real>> makeCudaImpulse(const SimulationConfig&,  \
                                                                const ThreadTeam&);       \
     template std::unique_ptr<ResidentPipeline<Real>> makeResidentImpulse(                \
+        const SimulationConfig&, const Vec2&, const ThreadTeam&);                        \
+    template std::unique_ptr<ResidentPipeline<Real>> makeResidentContinuous(             \
         const SimulationConfig&, const Vec2&, const ThreadTeam&);
 QUADRILLE_INSTANTIATE(double)
 QUADRILLE_INSTANTIATE(float)

@@ -40,7 +40,7 @@ std::unique_ptr<ContactLaw<Real>> make(const SimulationConfig&, const ThreadTeam
 
 /// What runs where: a law that is not here with a resolver does not run on it.
 template <class Real>
-constexpr std::array<Entry<Real>, 8> table = {{
+constexpr std::array<Entry<Real>, 9> table = {{
     {ResolverKind::Sequential, Law::Baseline, make<Real, SequentialBaseline<Real>>},
     {ResolverKind::Sequential, Law::Impulse, make<Real, SequentialImpulse<Real>>},
     {ResolverKind::Sequential, Law::Continuous, makeContinuousLaw<Real>},
@@ -49,6 +49,7 @@ constexpr std::array<Entry<Real>, 8> table = {{
     {ResolverKind::Cuda, Law::Baseline, makeCudaBaseline<Real>},
     {ResolverKind::Cuda, Law::Impulse, makeCudaImpulse<Real>},
     {ResolverKind::CudaResident, Law::Impulse, nullptr, makeResidentImpulse<Real>},
+    {ResolverKind::CudaResident, Law::Continuous, nullptr, makeResidentContinuous<Real>},
 }};
 
 template <class Real>

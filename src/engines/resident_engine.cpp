@@ -1,5 +1,6 @@
 #include "engines/resident_engine.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <quadrille/error.hpp>
@@ -50,15 +51,42 @@ bool ResidentEngine<Real>::audited(const StepWindow& window) const {
     return audits_ && audits_->picks(window.number);
 }
 
+/// Whether the step may go to the device: a law that keeps anchors begins on the host, which also
+/// takes over what was edited, and what the device left to the host goes there for a while.
+template <class Real>
+bool ResidentEngine<Real>::goesThere(const BodyStore& store, const StepWindow& window) {
+    if (audited(window) || !pipeline_->runs()) return false;
+    if (waiting_ > 0) {
+        --waiting_;
+        return false;
+    }
+    const bool known =
+        store.edits() == Edits::None && store.physics() == physicsOf(config_.law, config_.step);
+    return known || !pipeline_->kept().anchors;
+}
+
 template <class Real>
 void ResidentEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport& report) {
     if (!lost_.empty()) throw DeviceError(lost_);
-    lastWasHere_ = audited(window);
-    if (lastWasHere_) {
-        stepHere(store, window, report);
-    } else {
+    joined_.clear();
+    if (goesThere(store, window)) {
         stepThere(store, window, report);
+    } else {
+        stepHere(store, window, report);
     }
+}
+
+/// Has the device take over the store's bodies, if it has not got them. Returns whether it has.
+template <class Real>
+bool ResidentEngine<Real>::send(BodyStore& store, const StepWindow& window, PhaseClock& clock) {
+    const bool follows = ahead_ == 0 || window.number == lastStep_ + 1;
+    if (std::exchange(there_, false) && revision_ == store.revision() && follows) return true;
+    store.read<Real>();  // also has bodies placed that are to be placed later
+    ahead_ = 0;
+    const LawBodies<Real> bodies =
+        store.advance<Real>(pipeline_->kept(), physicsOf(config_.law, config_.step));
+    revision_ = bodies.revision;
+    return pipeline_->load(bodies, window.from, clock);
 }
 
 template <class Real>
@@ -69,15 +97,11 @@ void ResidentEngine<Real>::stepThere(BodyStore& store, StepWindow& window, StepR
                     .to = window.to,
                     .keepContacts = window.keepContacts,
                     .clock = clock};
+    double done = window.from;
     try {
-        const bool follows = ahead_ == 0 || window.number == lastStep_ + 1;
-        if (!std::exchange(there_, false) || revision_ != store.revision() || !follows) {
-            const BodyView<Real> bodies = store.read<Real>();
-            ahead_ = 0;
-            pipeline_->load(bodies, clock);
-            revision_ = bodies.revision;
-        }
-        pipeline_->step(step);
+        if (!send(store, window, clock)) return stepHere(store, window, report);
+        lastWasHere_ = false;
+        done = pipeline_->step(step);
     } catch (const DeviceError& failure) {
         lost_ = failure.what();
         store.newestIs(nullptr);
@@ -91,31 +115,69 @@ void ResidentEngine<Real>::stepThere(BodyStore& store, StepWindow& window, StepR
         fetch(store);
         throw;
     }
+    if (done < window.to) {
+        goOnHere(store, window, done, step.counts, report);
+        return;
+    }
     there_ = true;
+    if (pause_ > 0) --pause_;
     ++ahead_;
     lastStep_ = window.number;
-    store.advancedBy(*this, physicsOf(config_.law, config_.step));
-    report.rebuilt = true;
+    store.advancedBy(*this, pipeline_->kept(), physicsOf(config_.law, config_.step));
+    report.rebuilt = step.rebuilt;
     report.contacts = step.counts.contacts;
     report.collisions = step.counts.collisions;
     report.pairsTested = step.counts.pairsTested;
 }
 
-/// What counts missed pairs looks at a partition of the host.
+/// The host does what is left of a step that the device has done up to a time, s.
+template <class Real>
+void ResidentEngine<Real>::goOnHere(BodyStore& store, StepWindow& window, double done,
+                                    ResolveCounts counts, StepReport& report) {
+    constexpr std::uint64_t longestPause = 256;
+    pause_ = std::min(2 * pause_ + 1, longestPause);
+    waiting_ = pause_;
+    const auto records = pipeline_->contacts();
+    joined_.assign(records.begin(), records.end());
+    store.newestIs(nullptr);
+    fetch(store);
+    if (!lost_.empty()) {
+        // The store has the bodies as the step began.
+        done = window.from;
+        counts = {};
+        joined_.clear();
+    }
+    there_ = false;
+    StepWindow rest = window;
+    rest.from = done;
+    stepHere(store, rest, report);
+    window.begun = rest.begun;
+    report.leftToHost = true;
+    report.contacts += counts.contacts;
+    report.collisions += counts.collisions;
+    report.pairsTested += counts.pairsTested;
+    const auto others = host_->contacts();
+    joined_.insert(joined_.end(), others.begin(), others.end());
+}
+
 template <class Real>
 void ResidentEngine<Real>::stepHere(BodyStore& store, StepWindow& window, StepReport& report) {
+    // Of bodies that were elsewhere since, a law that keeps anchors knows nothing.
+    if (!lastWasHere_ && pipeline_->kept().anchors) host_.reset();
+    lastWasHere_ = true;
     if (!host_) {
         host_ = std::make_unique<HostEngine<Real>>(onHost(config_), worldSize_, team_.threads(),
                                                    Thresholds{});
     }
     there_ = false;
     host_->step(store, window, report);
+    report.leftToHost = true;
 }
 
 template <class Real>
 void ResidentEngine<Real>::fetch(BodyStore& store) {
     try {
-        pipeline_->fetch(store.advance<Real>({}, store.physics()));
+        pipeline_->fetch(store.advance<Real>(pipeline_->kept(), store.physics()));
         ahead_ = 0;
     } catch (const DeviceError& failure) {
         lost_ = failure.what();
@@ -156,12 +218,14 @@ const Cells& ResidentEngine<Real>::cells() const {
 
 template <class Real>
 std::span<const ContactRecord> ResidentEngine<Real>::contacts() {
+    if (!joined_.empty()) return joined_;
     return lastWasHere_ ? host_->contacts() : pipeline_->contacts();
 }
 
 template <class Real>
 std::size_t ResidentEngine<Real>::bytes() const {
-    return pipeline_->bytes() + (host_ ? host_->bytes() : 0);
+    return pipeline_->bytes() + (host_ ? host_->bytes() : 0) +
+           joined_.capacity() * sizeof(ContactRecord);
 }
 
 template class ResidentEngine<double>;

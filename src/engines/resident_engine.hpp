@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "collision/pairs/missed_pairs.hpp"
 #include "core/engine.hpp"
@@ -13,7 +14,9 @@
 namespace quadrille {
 
 /// A step on a device that keeps the bodies. They come to the host when somebody reads them there,
-/// and go to the device again only after an edit. A device that fails loses nothing: the host has
+/// and go to the device again only after an edit, or after a step that the device leaves to the
+/// host: one that somebody audits, the first of a law that keeps anchors, and what its pipeline
+/// does not do. A device that fails loses nothing: the host has
 /// the bodies as they were read last, or edited, and goes through the steps since then again.
 template <class Real>
 class ResidentEngine final : public Engine, public BodyMirror {
@@ -39,7 +42,11 @@ class ResidentEngine final : public Engine, public BodyMirror {
 
   private:
     bool audited(const StepWindow& window) const;
+    bool goesThere(const BodyStore& store, const StepWindow& window);
+    bool send(BodyStore& store, const StepWindow& window, PhaseClock& clock);
     void stepThere(BodyStore& store, StepWindow& window, StepReport& report);
+    void goOnHere(BodyStore& store, StepWindow& window, double done, ResolveCounts counts,
+                  StepReport& report);
     void stepHere(BodyStore& store, StepWindow& window, StepReport& report);
     void repeatSteps(BodyStore& store);
 
@@ -47,9 +54,12 @@ class ResidentEngine final : public Engine, public BodyMirror {
     Vec2 worldSize_;
     ThreadTeam team_;  // used by what follows
     std::unique_ptr<ResidentPipeline<Real>> pipeline_;
-    std::unique_ptr<HostEngine<Real>> host_;  // of steps that are audited
+    std::unique_ptr<HostEngine<Real>> host_;  // of steps that the device does not do
     std::unique_ptr<MissedPairCounter<Real>> audits_;
     bool lastWasHere_ = false;
+    std::uint64_t pause_ = 0;            // steps for which the host goes on after what it was left
+    std::uint64_t waiting_ = 0;          // those that are left of it
+    std::vector<ContactRecord> joined_;  // of a step that both have done
 
     bool there_ = false;          // the device has the bodies
     std::uint64_t revision_ = 0;  // of the store, with which it has them

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <quadrille/error.hpp>
 #include <quadrille/state_hash.hpp>
@@ -38,34 +39,47 @@ struct Device {
 };
 Device device;
 
+/// A store with the same bodies.
+std::unique_ptr<BodyStore> storeOf(const LawBodies<double>& bodies) {
+    auto store = std::make_unique<BodyStore>();
+    const auto& m = bodies.moving;
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        store->append({.position = {m.x[i], m.y[i]},
+                       .halfSize = {m.halfWidth[i], m.halfHeight[i]},
+                       .velocity = {m.vx[i], m.vy[i]},
+                       .mass = m.mass[i],
+                       .isStatic = false,
+                       .entity = m.entity[i]});
+    }
+    const auto& f = bodies.fixed;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+        store->append({.position = {f.x[i], f.y[i]},
+                       .halfSize = {f.halfWidth[i], f.halfHeight[i]},
+                       .velocity = {0, 0},
+                       .mass = 1,
+                       .isStatic = true,
+                       .entity = f.entity[i]});
+    }
+    return store;
+}
+
+SimulationConfig onOneCore(SimulationConfig config) {
+    config.resolver = ResolverKind::Sequential;
+    config.countMissedPairs = false;
+    return config;
+}
+
 class FakePipeline final : public ResidentPipeline<double> {
   public:
     explicit FakePipeline(const SimulationConfig& config, const Vec2& worldSize)
         : engine_(onOneCore(config), worldSize) {}
 
-    void load(const BodyView<double>& bodies, PhaseClock&) override {
+    bool load(const LawBodies<double>& bodies, double, PhaseClock&) override {
         device.failIn(Fails::InLoad, ++device.loads);
-        store_ = std::make_unique<BodyStore>();
-        const auto& m = bodies.moving;
-        for (std::size_t i = 0; i < m.size(); ++i) {
-            store_->append({.position = {m.x[i], m.y[i]},
-                            .halfSize = {m.halfWidth[i], m.halfHeight[i]},
-                            .velocity = {m.vx[i], m.vy[i]},
-                            .mass = m.mass[i],
-                            .isStatic = false,
-                            .entity = m.entity[i]});
-        }
-        const auto& f = bodies.fixed;
-        for (std::size_t i = 0; i < f.size(); ++i) {
-            store_->append({.position = {f.x[i], f.y[i]},
-                            .halfSize = {f.halfWidth[i], f.halfHeight[i]},
-                            .velocity = {0, 0},
-                            .mass = 1,
-                            .isStatic = true,
-                            .entity = f.entity[i]});
-        }
+        store_ = storeOf(bodies);
+        return true;
     }
-    void step(Step<double>& step) override {
+    double step(Step<double>& step) override {
         StepWindow window{
             .number = 1, .from = step.from, .to = step.to, .keepContacts = step.keepContacts};
         StepReport report;
@@ -75,8 +89,9 @@ class FakePipeline final : public ResidentPipeline<double> {
                        .collisions = report.collisions,
                        .pairsTested = report.pairsTested};
         device.failIn(Fails::InStep, ++device.steps);
+        return step.to;
     }
-    void fetch(const MutableBodyView<double>& bodies) override {
+    void fetch(const LawBodies<double>& bodies) override {
         device.failIn(Fails::InFetch, ++device.fetches);
         const BodyView<double> here = store_->read<double>();
         std::ranges::copy(here.moving.x, bodies.moving.x.begin());
@@ -89,12 +104,6 @@ class FakePipeline final : public ResidentPipeline<double> {
     std::size_t bytes() const override { return 0; }
 
   private:
-    static SimulationConfig onOneCore(SimulationConfig config) {
-        config.resolver = ResolverKind::Sequential;
-        config.countMissedPairs = false;
-        return config;
-    }
-
     HostEngine<double> engine_;
     std::unique_ptr<BodyStore> store_;
 };
@@ -103,6 +112,63 @@ std::unique_ptr<ResidentPipeline<double>> makeFake(const SimulationConfig& confi
                                                    const Vec2& worldSize, const ThreadTeam&) {
     return std::make_unique<FakePipeline>(config, worldSize);
 }
+
+/// The same for the law `continuous`, which keeps anchors: of a step it does all, a part, or
+/// nothing, one after the other.
+class FakeExactPipeline final : public ResidentPipeline<double> {
+  public:
+    explicit FakeExactPipeline(const SimulationConfig& config, const Vec2& worldSize)
+        : config_(onOneCore(config)), engine_(config_, worldSize) {}
+
+    KeptColumns kept() const override { return {.anchors = true}; }
+    bool load(const LawBodies<double>& bodies, double, PhaseClock&) override {
+        device.failIn(Fails::InLoad, ++device.loads);
+        store_ = storeOf(bodies);
+        std::ranges::copy(bodies.anchors, advanced().anchors.begin());
+        return true;
+    }
+    double step(Step<double>& step) override {
+        constexpr double shares[] = {1, 1, 0.625, 1, 0};
+        const double share = shares[device.steps % 5];
+        const double to = share == 1 ? step.to : step.from + share * (step.to - step.from);
+        device.failIn(Fails::InStep, ++device.steps);
+        StepWindow window{
+            .number = 1, .from = step.from, .to = to, .keepContacts = step.keepContacts};
+        StepReport report;
+        records_.clear();
+        if (to == step.from) return to;
+        engine_.step(*store_, window, report);
+        const auto records = engine_.contacts();
+        records_.assign(records.begin(), records.end());
+        step.counts = {.events = 0,
+                       .contacts = report.contacts,
+                       .collisions = report.collisions,
+                       .pairsTested = report.pairsTested};
+        return to;
+    }
+    void fetch(const LawBodies<double>& bodies) override {
+        device.failIn(Fails::InFetch, ++device.fetches);
+        const BodyView<double> here = store_->read<double>();
+        std::ranges::copy(here.moving.x, bodies.moving.x.begin());
+        std::ranges::copy(here.moving.y, bodies.moving.y.begin());
+        std::ranges::copy(here.moving.vx, bodies.moving.vx.begin());
+        std::ranges::copy(here.moving.vy, bodies.moving.vy.begin());
+        std::ranges::copy(advanced().anchors, bodies.anchors.begin());
+    }
+    const Cells& cells() override { return engine_.cells(); }
+    std::span<const ContactRecord> contacts() override { return records_; }
+    std::size_t bytes() const override { return 0; }
+
+  private:
+    LawBodies<double> advanced() {
+        return store_->advance<double>(kept(), physicsOf(config_.law, config_.step));
+    }
+
+    SimulationConfig config_;
+    HostEngine<double> engine_;
+    std::unique_ptr<BodyStore> store_;
+    std::vector<ContactRecord> records_;
+};
 
 World scene() { return randomScene(SceneKind::Clustered, 61, 150, 150); }
 
@@ -315,6 +381,53 @@ TEST_F(ResidentEngineTest, StepsMayBeNumberedAnew) {
         }
     }
     EXPECT_EQ(stateHash(resident.world), stateHash(host.world));
+}
+
+/// Steps of an exact law that the device does in part, or not at all; with edits in between.
+TEST_F(ResidentEngineTest, TheHostGoesOnWhereTheDeviceStopped) {
+    SimulationConfig config = configured();
+    config.law = Law::Continuous;
+    config.step = {};
+    SimulationConfig hosts = config;
+    hosts.resolver = ResolverKind::Sequential;
+    const Vec2 size = scene().config().size;
+    Stepped host{makeEngine(hosts, size)};
+    Stepped resident{std::make_unique<ResidentEngine<double>>(
+        config, size, 2,
+        [](const SimulationConfig& c, const Vec2& s,
+           const ThreadTeam&) -> std::unique_ptr<ResidentPipeline<double>> {
+            return std::make_unique<FakeExactPipeline>(c, s);
+        })};
+    std::uint64_t contacts = 0;
+    int left = 0;
+    for (int i = 0; i < 120; ++i) {
+        SCOPED_TRACE(i);
+        if (i % 29 == 28) {
+            edit(host.world);
+            edit(resident.world);
+        }
+        const StepReport expected = host.step();
+        const StepReport found = resident.step();
+        contacts += expected.contacts;
+        left += found.leftToHost;
+        ASSERT_EQ(found.contacts, expected.contacts);
+        ASSERT_EQ(found.collisions, expected.collisions);
+        const auto records = host.engine->contacts();
+        const auto others = resident.engine->contacts();
+        ASSERT_EQ(others.size(), records.size());
+        for (std::size_t k = 0; k < records.size(); ++k) {
+            ASSERT_EQ(others[k].time, records[k].time);
+            ASSERT_EQ(others[k].impulseX, records[k].impulseX);
+        }
+        if (i % 3 == 0) {
+            ASSERT_EQ(stateHash(resident.world), stateHash(host.world));
+        }
+    }
+    EXPECT_EQ(stateHash(resident.world), stateHash(host.world));
+    EXPECT_GT(contacts, 100u);
+    EXPECT_GT(device.steps, 20);
+    EXPECT_GT(left, 5);
+    EXPECT_LT(left, 110);
 }
 
 }  // namespace
