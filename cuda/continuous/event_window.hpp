@@ -34,9 +34,23 @@ inline constexpr std::uint32_t tooFast = 64;     ///< a body outran what the par
 inline constexpr std::uint32_t notFinite = 128;  ///< a position is none
 }  // namespace trouble
 
+/// What becomes of an event.
+enum class Fate : std::uint8_t {
+    Concerned,  ///< others may have to do with it: it belongs to an island
+    Nothing,    ///< nobody has, and it does nothing
+    Change,     ///< nobody has, and it changes paths without a collision
+    Collision,  ///< nobody has
+};
+
+/// A body's last event: with whom, and in which window.
+struct alignas(8) EventMark {
+    std::uint32_t window;  ///< its number
+    BodyRef other;
+};
+
 /// What a window counts. There are two, and the one that is not in use is zero.
 struct WindowCounts {
-    Counter events, claimed, islands, records, troubles;
+    Counter events, concerned, claimed, islands, records, troubles;
     unsigned long long happened, collisions;
 };
 
@@ -86,9 +100,16 @@ struct EventBodies {
     std::uint32_t* stamps;      ///< changes of each path
     std::uint32_t* parents;     ///< towards the root of a body's island; `none` outside of windows
     std::uint32_t* firstEvent;  ///< of the island of a root; the same
-    std::uint32_t* changedIn;   ///< the number of the last window in which the body's path changed
+    std::uint32_t* changedIn;   ///< the number of the last window in which a body's path changed
+    EventMark* marks;           ///< of each body
+    std::uint32_t* busyIn;      ///< the number of the last window in which it had several events
+    std::uint32_t* eventOf;     ///< of its mark, where it is the only one
 
     PairEvent* events;
+    Fate* fates;
+    Anchor<Real>* anchorsOf;   ///< of both bodies of each event, before it
+    ContactRecord* recordOf;   ///< of each event that belongs to no island; null as `records`
+    std::uint32_t* concerned;  ///< events that belong to islands, and others not
     std::uint32_t* nextEvent;  ///< of the same island
     std::uint32_t* roots;      ///< of islands with events
     std::uint32_t eventRoom;

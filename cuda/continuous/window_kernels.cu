@@ -1,3 +1,5 @@
+#include <cooperative_groups.h>
+
 #include "collision/make_record.hpp"
 #include "collision/rules/event_rules.hpp"
 #include "collision/rules/next_event.hpp"
@@ -9,8 +11,18 @@ namespace quadrille::cuda {
 
 namespace {
 
-/// A thread for each island; more registers than larger blocks could have.
-constexpr int islandBlock = 64;
+namespace groups = cooperative_groups;
+
+/// Threads that look at the neighbours of a body together.
+constexpr int tileSize = 8;
+using Tile = groups::thread_block_tile<tileSize>;
+using Warp = groups::thread_block_tile<32>;
+
+/// Blocks of a fixed size, for kernels that share memory or need many registers.
+constexpr int tilesBlock = 256;
+constexpr int eventsOfBlock = tilesBlock / tileSize;
+constexpr int warpsBlock = 128;
+constexpr int warpsOfBlock = warpsBlock / 32;
 
 __device__ inline void report(WindowCounts* counts, std::uint32_t bit) {
     atomicOr(&counts->troubles.value, bit);
@@ -19,87 +31,78 @@ __device__ inline bool troubled(const WindowCounts* counts) {
     return *static_cast<const volatile std::uint32_t*>(&counts->troubles.value) != 0;
 }
 
-// ---- islands: a forest that threads join as they meet (Jaiganesh & Burtscher 2018)
-
-__device__ inline std::uint32_t parentOf(const std::uint32_t* parents, std::uint32_t row) {
-    return *static_cast<const volatile std::uint32_t*>(parents + row);
-}
-
-__device__ inline std::uint32_t rootOf(std::uint32_t* parents, std::uint32_t row) {
-    for (;;) {
-        const std::uint32_t parent = parentOf(parents, row);
-        const std::uint32_t next = parentOf(parents, parent);
-        if (parent == next) return parent;
-        atomicCAS(&parents[row], parent, next);
-        row = next;
-    }
-}
-
-__device__ inline void unite(std::uint32_t* parents, std::uint32_t a, std::uint32_t b) {
-    for (;;) {
-        const std::uint32_t p = rootOf(parents, a);
-        const std::uint32_t q = rootOf(parents, b);
-        if (p == q) return;
-        const std::uint32_t high = max(p, q);
-        if (atomicCAS(&parents[high], high, min(p, q)) == high) return;
-    }
-}
-
-/// Claims the bodies of an event and all those that may concern them, one thread each whatever it
-/// claims first.
-template <class Real>
-class Flood {
-  public:
-    __device__ Flood(const EventBodies<Real>& bodies, const Window& window)
-        : bodies_(bodies), window_(window) {}
-
-    __device__ void from(const PairEvent& event) {
-        claim(event.a);
-        if (!event.withStatic()) {
-            claim(event.b.row());
-            unite(bodies_.parents, event.a, event.b.row());
-        }
-        while (waiting_ > 0) spread(rows_[--waiting_]);
-    }
-
-  private:
-    static constexpr int room = 24;
-
-    __device__ void claim(std::uint32_t row) {
-        if (parentOf(bodies_.parents, row) != none) return;
-        if (atomicCAS(&bodies_.parents[row], none, row) != none) return;
-        const std::uint32_t place = countUp(&bodies_.counts->claimed.value);
-        if (place < bodies_.claimedRoom) {
-            bodies_.claimed[place] = row;
-        } else {
-            report(bodies_.counts, trouble::claimed);
-        }
-        if (waiting_ < room) {
-            rows_[waiting_++] = row;
-        } else {
-            report(bodies_.counts, trouble::crowded);
-        }
-    }
-    __device__ void spread(std::uint32_t row) {
-        const SketchSpan span = sketchSpan(bodies_.lists.from, window_.from, window_.from,
-                                           bodies_.slack + window_.close);
-        forEachNear(
-            bodies_, row, span, [](std::uint32_t) { return true; },
-            [&](BodyRef other) {
-                if (other.isStatic()) return;
-                claim(other.row());
-                // Whoever claimed the other one sees this pair, too.
-                if (row < other.row()) unite(bodies_.parents, row, other.row());
-            });
-    }
-
-    const EventBodies<Real>& bodies_;
-    const Window& window_;
-    std::uint32_t rows_[room];
-    int waiting_ = 0;
+/// The neighbour that the thread of a tile looks at, of those from `start` on.
+struct Neighbour {
+    BodyRef body;
+    std::uint32_t row;  ///< of a static one, the body itself, which is as near
+    bool there;
 };
 
-/// The events of the window, and the islands around them.
+/// Calls `look(neighbour)` for all neighbours of a body, by all threads of a tile together.
+template <class Real, class Threads, class Look>
+__device__ void forNeighbours(const EventBodies<Real>& bodies, const Threads& tile,
+                              std::uint32_t row, const Look& look) {
+    const std::uint32_t first = bodies.starts[row];
+    const std::uint32_t last = bodies.starts[row + 1];
+    for (std::uint32_t start = first; start < last; start += tile.size()) {
+        const std::uint32_t place = start + tile.thread_rank();
+        const bool there = place < last;
+        const BodyRef body = bodies.others[there ? place : start];
+        look(Neighbour{body, body.isStatic() ? row : body.row(), there});
+    }
+}
+
+template <class Real>
+__device__ bool near(const EventBodies<Real>& bodies, const PathSketch& own, std::uint32_t row,
+                     const Neighbour& other, const SketchSpan& span) {
+    return isNear(own, bodies.sketches[other.row], sketchSize(bodies.motion, row),
+                  sketchSize(bodies.motion, other.row), span);
+}
+
+/// A body goes on as it did before.
+template <class Real>
+__device__ void takeBack(const EventBodies<Real>& bodies, std::uint32_t row,
+                         const Anchor<Real>& before) {
+    const auto& m = bodies.motion.bodies.moving;
+    m.anchors[row] = before;
+    m.vx[row] = before.vx;
+    m.vy[row] = before.vy;
+}
+
+/// A body's path is another one for those that come after.
+template <class Real>
+__device__ void noteChange(const EventBodies<Real>& bodies, const Window& window,
+                           std::uint32_t row) {
+    bodies.changedIn[row] = window.number;
+    bodies.sketches[row] = sketchOf(bodies.motion, row, bodies.lists.from);
+}
+
+template <class Real>
+__device__ void keep(const EventBodies<Real>& bodies, const RecordedContact& recorded) {
+    const std::uint32_t place = countUp(&bodies.counts->records.value);
+    if (place < bodies.recordRoom) {
+        bodies.records[place] = recorded;
+    } else {
+        report(bodies.counts, trouble::records);
+    }
+}
+
+// ---- the events of the window
+
+/// Marks a body of an event. Returns whether it is the same event once more: pairs are listed again
+/// when one of them has changed, and may then stand twice in a list.
+template <class Real>
+__device__ bool markedAlready(const EventBodies<Real>& bodies, const Window& window,
+                              std::uint32_t row, BodyRef other) {
+    auto* const mark = reinterpret_cast<unsigned long long*>(bodies.marks + row);
+    const unsigned long long now =
+        static_cast<unsigned long long>(other.bits) << 32 | window.number;
+    const unsigned long long before = atomicExch(mark, now);
+    if (before == now) return true;
+    if (static_cast<std::uint32_t>(before) == window.number) bodies.busyIn[row] = window.number;
+    return false;
+}
+
 template <class Real>
 __global__ void __launch_bounds__(largestBlock)
     gatherKernel(EventBodies<Real> bodies, Window window) {
@@ -128,74 +131,334 @@ __global__ void __launch_bounds__(largestBlock)
                      event = found;
                      happens = found.time > window.from || window.first;
                  });
-        if (!happens) continue;
+        if (!happens || markedAlready(bodies, window, event.a, event.b)) continue;
+        const bool withStatic = event.withStatic();
+        if (!withStatic) {
+            markedAlready(bodies, window, event.b.row(), BodyRef::moving(event.a));
+        }
         event.stampA = bodies.stamps[event.a];
-        if (!event.withStatic()) event.stampB = bodies.stamps[event.b.row()];
+        if (!withStatic) event.stampB = bodies.stamps[event.b.row()];
         const std::uint32_t place = countUp(&bodies.counts->events.value);
         if (place >= bodies.eventRoom) {
             report(bodies.counts, trouble::events);
             continue;
         }
         bodies.events[place] = event;
-        Flood<Real>(bodies, window).from(event);
+        bodies.eventOf[event.a] = place;
+        if (!withStatic) bodies.eventOf[event.b.row()] = place;
     }
 }
 
-/// Gives each island its events, and keeps what its bodies were.
+/// Carries out an event as if it concerned nobody else.
 template <class Real>
-__global__ void __launch_bounds__(largestBlock) groupKernel(EventBodies<Real> bodies) {
+__device__ Fate tryAlone(const EventBodies<Real>& bodies, const Window& window, std::uint32_t i) {
+    const PairEvent event = bodies.events[i];
+    const auto& anchors = bodies.motion.bodies.moving.anchors;
+    const bool busy = bodies.busyIn[event.a] == window.number ||
+                      (!event.withStatic() && bodies.busyIn[event.b.row()] == window.number);
+    if (busy) return Fate::Concerned;
+    bodies.anchorsOf[2 * std::size_t(i)] = anchors[event.a];
+    if (!event.withStatic()) bodies.anchorsOf[2 * std::size_t(i) + 1] = anchors[event.b.row()];
+    const EventContact contact = contactOf(bodies.motion, event);
+    const EventOutcomes done =
+        collide(bodies.motion, event, contact, [](int, double) { return 0.0; });
+    if (!done.changes()) return Fate::Nothing;
+    if (bodies.records != nullptr) bodies.recordOf[i] = makeRecord(event, contact, done);
+    return done.collided() != 0 ? Fate::Collision : Fate::Change;
+}
+
+/// Whether a body of an event that was carried out is near one that has another event, or meets
+/// anybody in this window. All threads of the tile come.
+template <class Real>
+__device__ bool concerns(const EventBodies<Real>& bodies, const Window& window, const Tile& tile,
+                         const PairEvent& event, std::uint32_t row, std::uint32_t partner) {
+    const auto& motion = bodies.motion;
+    const PathSketch before = bodies.sketches[row];
+    const PathSketch after = sketchOf(motion, row, bodies.lists.from);
+    const SketchSpan close =
+        sketchSpan(bodies.lists.from, window.from, window.from, bodies.slack + window.close);
+    const SketchSpan rest = sketchSpan(bodies.lists.from, event.time, window.to, bodies.slack);
+    bool meets = outruns(motion, row, event.time, bodies.horizon, SpeedBounds{bodies.bound});
+    forNeighbours(bodies, tile, row, [&](const Neighbour& other) {
+        if (!other.there) return;
+        if (!other.body.isStatic() && other.row != partner &&
+            bodies.marks[other.row].window == window.number &&
+            near(bodies, before, row, other, close)) {
+            meets = true;
+        } else if (other.body.isStatic() || near(bodies, after, row, other, rest)) {
+            const BodyRef one[1] = {other.body};
+            findFor(motion, row, one, event.time, window.to,
+                    [&](const PairEvent& found) { meets = meets || found.time <= window.to; });
+        }
+    });
+    return tile.any(meets);
+}
+
+/// Carries out the events that concern nobody but their bodies, and finds those that do: whoever is
+/// near their bodies has none, and their new paths meet nobody in this window. Sketches stay as
+/// they were, so that all see who was near; paths of bodies with events are nobody else's to look
+/// at.
+template <class Real>
+__global__ void __launch_bounds__(tilesBlock) aloneKernel(EventBodies<Real> bodies, Window window) {
+    if (troubled(bodies.counts)) return;
+    __shared__ Fate fates[eventsOfBlock];
+    const auto tile = groups::tiled_partition<tileSize>(groups::this_thread_block());
+    const std::uint32_t count = bodies.counts->events.value;
+    const std::uint32_t own = threadIdx.x / tileSize;
+    for (std::uint32_t first = blockIdx.x * eventsOfBlock; first < count;
+         first += gridDim.x * eventsOfBlock) {
+        if (threadIdx.x < eventsOfBlock && first + threadIdx.x < count) {
+            fates[threadIdx.x] = tryAlone(bodies, window, first + threadIdx.x);
+        }
+        __syncthreads();
+        const std::uint32_t i = first + own;
+        if (i < count) {
+            const PairEvent event = bodies.events[i];
+            const std::uint32_t b = event.withStatic() ? none : event.b.row();
+            Fate fate = fates[own];
+            if (fate == Fate::Change || fate == Fate::Collision) {
+                const bool concerned =
+                    concerns(bodies, window, tile, event, event.a, b) ||
+                    (b != none && concerns(bodies, window, tile, event, b, event.a));
+                if (concerned) {
+                    fate = Fate::Concerned;
+                    if (tile.thread_rank() == 0) {
+                        takeBack(bodies, event.a, bodies.anchorsOf[2 * std::size_t(i)]);
+                        if (b != none) {
+                            takeBack(bodies, b, bodies.anchorsOf[2 * std::size_t(i) + 1]);
+                        }
+                    }
+                }
+            }
+            if (tile.thread_rank() == 0) {
+                bodies.fates[i] = fate;
+                if (fate == Fate::Concerned) {
+                    bodies.concerned[countUp(&bodies.counts->concerned.value)] = i;
+                }
+            }
+        }
+        __syncthreads();
+    }
+}
+
+// ---- islands: a forest that threads join as they meet (Jaiganesh & Burtscher 2018)
+
+__device__ inline std::uint32_t parentOf(const std::uint32_t* parents, std::uint32_t row) {
+    return *static_cast<const volatile std::uint32_t*>(parents + row);
+}
+
+__device__ inline std::uint32_t rootOf(std::uint32_t* parents, std::uint32_t row) {
+    for (;;) {
+        const std::uint32_t parent = parentOf(parents, row);
+        const std::uint32_t next = parentOf(parents, parent);
+        if (parent == next) return parent;
+        atomicCAS(&parents[row], parent, next);
+        row = next;
+    }
+}
+
+__device__ inline void unite(std::uint32_t* parents, std::uint32_t a, std::uint32_t b) {
+    for (;;) {
+        const std::uint32_t p = rootOf(parents, a);
+        const std::uint32_t q = rootOf(parents, b);
+        if (p == q) return;
+        const std::uint32_t high = max(p, q);
+        if (atomicCAS(&parents[high], high, min(p, q)) == high) return;
+    }
+}
+
+/// Claims the bodies of an event and all those that may concern them, one warp each whatever it
+/// claims first.
+template <class Real>
+class Flood {
+  public:
+    static constexpr std::uint32_t room = 96;
+
+    __device__ Flood(const EventBodies<Real>& bodies, const Window& window, const Warp& warp,
+                     std::uint32_t* rows)
+        : bodies_(bodies), window_(window), warp_(warp), rows_(rows) {}
+
+    __device__ void from(const PairEvent& event) {
+        const bool two = !event.withStatic();
+        const std::uint32_t row = warp_.thread_rank() == 0 ? event.a
+                                  : two                    ? event.b.row()
+                                                           : event.a;
+        claim(warp_.thread_rank() < (two ? 2u : 1u), row);
+        if (two && warp_.thread_rank() == 0) unite(bodies_.parents, event.a, event.b.row());
+        while (waiting_ > 0) {
+            const std::uint32_t next = rows_[--waiting_];
+            warp_.sync();
+            spread(next);
+        }
+    }
+
+  private:
+    /// All threads come, those with a row that `wants` it claim it.
+    __device__ void claim(bool wants, std::uint32_t row) {
+        const bool gets = wants && parentOf(bodies_.parents, row) == none &&
+                          atomicCAS(&bodies_.parents[row], none, row) == none;
+        const unsigned all = warp_.ballot(gets);
+        if (all == 0) return;
+        const auto count = static_cast<std::uint32_t>(__popc(all));
+        std::uint32_t first = 0;
+        if (warp_.thread_rank() == 0) first = atomicAdd(&bodies_.counts->claimed.value, count);
+        first = warp_.shfl(first, 0);
+        const std::uint32_t before = __popc(all & ((1u << warp_.thread_rank()) - 1));
+        if (gets && first + before < bodies_.claimedRoom) bodies_.claimed[first + before] = row;
+        if (gets && waiting_ + before < room) rows_[waiting_ + before] = row;
+        if (warp_.thread_rank() == 0) {
+            if (first + count > bodies_.claimedRoom) report(bodies_.counts, trouble::claimed);
+            if (waiting_ + count > room) report(bodies_.counts, trouble::crowded);
+        }
+        waiting_ = min(waiting_ + count, room);
+        warp_.sync();
+    }
+    __device__ void spread(std::uint32_t row) {
+        const PathSketch own = bodies_.sketches[row];
+        const SketchSpan close = sketchSpan(bodies_.lists.from, window_.from, window_.from,
+                                            bodies_.slack + window_.close);
+        forNeighbours(bodies_, warp_, row, [&](const Neighbour& other) {
+            const bool wants =
+                other.there && !other.body.isStatic() && near(bodies_, own, row, other, close);
+            claim(wants, other.row);
+            // Whoever claimed the other one sees this pair, too.
+            if (wants && row < other.row) unite(bodies_.parents, row, other.row);
+        });
+    }
+
+    const EventBodies<Real>& bodies_;
+    const Window& window_;
+    const Warp& warp_;
+    std::uint32_t* const rows_;
+    std::uint32_t waiting_ = 0;  // the same in all threads
+};
+
+template <class Real>
+__global__ void __launch_bounds__(warpsBlock) floodKernel(EventBodies<Real> bodies, Window window) {
+    if (troubled(bodies.counts)) return;
+    __shared__ std::uint32_t rows[warpsOfBlock][Flood<Real>::room];
+    const auto warp = groups::tiled_partition<32>(groups::this_thread_block());
+    const std::uint32_t own = threadIdx.x / 32;
+    const std::uint32_t count = bodies.counts->concerned.value;
+    for (std::uint32_t i = blockIdx.x * warpsOfBlock + own; i < count;
+         i += gridDim.x * warpsOfBlock) {
+        Flood<Real>(bodies, window, warp, rows[own]).from(bodies.events[bodies.concerned[i]]);
+    }
+}
+
+/// Gives each island its events, with the bodies as they were, and keeps what they were. Events of
+/// no island are done.
+template <class Real>
+__global__ void __launch_bounds__(largestBlock)
+    groupKernel(EventBodies<Real> bodies, Window window) {
     if (troubled(bodies.counts)) return;
     const std::uint32_t claimed = bodies.counts->claimed.value;
     for (std::uint32_t i = threadNumber(); i < claimed; i += threadCount()) {
         const std::uint32_t row = bodies.claimed[i];
+        if (bodies.marks[row].window == window.number && bodies.busyIn[row] != window.number) {
+            // What it has done alone, it does again in the island.
+            const std::uint32_t event = bodies.eventOf[row];
+            const Fate fate = bodies.fates[event];
+            if (fate == Fate::Change || fate == Fate::Collision) {
+                const bool second = bodies.events[event].a != row;
+                takeBack(bodies, row, bodies.anchorsOf[2 * std::size_t(event) + second]);
+            }
+        }
         bodies.before[i] = bodies.motion.bodies.moving.anchors[row];
         // From here on the root itself, for the islands.
         const std::uint32_t root = rootOf(bodies.parents, row);
         *static_cast<volatile std::uint32_t*>(bodies.parents + row) = root;
     }
     const std::uint32_t events = bodies.counts->events.value;
+    unsigned long long happened = 0;
+    unsigned long long collisions = 0;
     for (std::uint32_t i = threadNumber(); i < events; i += threadCount()) {
-        const std::uint32_t root = rootOf(bodies.parents, bodies.events[i].a);
-        const std::uint32_t next = atomicExch(&bodies.firstEvent[root], i);
-        bodies.nextEvent[i] = next;
-        if (next == none) bodies.roots[countUp(&bodies.counts->islands.value)] = root;
+        const PairEvent event = bodies.events[i];
+        if (parentOf(bodies.parents, event.a) != none) {
+            const std::uint32_t root = rootOf(bodies.parents, event.a);
+            const std::uint32_t next = atomicExch(&bodies.firstEvent[root], i);
+            bodies.nextEvent[i] = next;
+            if (next == none) bodies.roots[countUp(&bodies.counts->islands.value)] = root;
+            continue;
+        }
+        ++happened;
+        const Fate fate = bodies.fates[i];
+        if (fate == Fate::Nothing) continue;
+        noteChange(bodies, window, event.a);
+        if (!event.withStatic()) noteChange(bodies, window, event.b.row());
+        if (fate != Fate::Collision) continue;
+        ++collisions;
+        if (bodies.records != nullptr) keep(bodies, {event, 0, bodies.recordOf[i]});
     }
+    __syncthreads();
+    addFromBlock(&bodies.counts->happened, happened);
+    addFromBlock(&bodies.counts->collisions, collisions);
 }
 
 // ---- the events of one island
 
-/// Carries out the events of an island in the order of time, as EventLoop does for all bodies.
+/// What a warp shares.
+struct IslandQueue {
+    static constexpr std::uint32_t room = 64;
+    static constexpr int mostDeep = 16;
+
+    PairEvent events[room];
+    std::uint32_t size;
+    struct {
+        std::uint32_t a;
+        BodyRef b;
+    } separated[mostDeep];  ///< pairs deep inside each other that collided at the present instant
+};
+
+/// Carries out the events of an island in the order of time, as EventLoop does for all bodies. All
+/// threads of a warp go through it together: one carries out, all look for what comes next.
 template <class Real>
 class Island {
   public:
-    __device__ Island(const EventBodies<Real>& bodies, const Window& window, std::uint32_t root)
+    __device__ Island(const EventBodies<Real>& bodies, const Window& window, const Warp& warp,
+                      std::uint32_t root, IslandQueue& queue)
         : bodies_(bodies),
           motion_(bodies.motion),
           window_(window),
+          warp_(warp),
           isLater_(eventOrder(bodies.motion.bodies)),
-          root_(root) {}
+          root_(root),
+          queue_(queue) {}
 
     __device__ void run() {
-        for (std::uint32_t i = bodies_.firstEvent[root_]; i != none; i = bodies_.nextEvent[i]) {
-            push(bodies_.events[i]);
+        if (leads()) {
+            queue_.size = 0;
+            for (std::uint32_t i = bodies_.firstEvent[root_]; i != none; i = bodies_.nextEvent[i]) {
+                push(bodies_.events[i]);
+            }
         }
-        while (size_ > 0 && !failed_) {
+        warp_.sync();
+        while (queue_.size > 0 && !failed_) {
             const PairEvent event = popFirst();
             if (!isCurrent(event)) continue;
-            if (++happened > mostEvents) fail(trouble::crowded);
-            if (!resolve(event)) continue;
+            int state = 0;
+            if (leads()) {
+                if (++happened > mostEvents) fail(trouble::crowded);
+                state = resolve(event) | failed_ << 1;
+            }
+            warp_.sync();
+            state = warp_.shfl(state, 0);
+            failed_ = (state & 2) != 0;
+            if ((state & 1) == 0) continue;
             follow(event.a, event.time);
             if (!event.withStatic()) follow(event.b.row(), event.time);
+            warp_.sync();
+            failed_ = failed_ || queue_.size > IslandQueue::room;
         }
     }
 
-    std::uint32_t happened = 0, collisions = 0;
+    std::uint32_t happened = 0, collisions = 0;  // of the thread that leads
 
   private:
-    static constexpr int room = 40;
     /// So few that no body can be jammed (collision/continuous/bursts.hpp).
     static constexpr std::uint32_t mostEvents = 64;
-    static constexpr int mostDeep = 16;
+
+    __device__ bool leads() const { return warp_.thread_rank() == 0; }
 
     __device__ void fail(std::uint32_t why) {
         report(bodies_.counts, why);
@@ -203,19 +466,40 @@ class Island {
     }
 
     __device__ void push(const PairEvent& event) {
-        if (size_ < room) {
-            queue_[size_++] = event;
+        const std::uint32_t place = atomicAdd(&queue_.size, 1u);
+        if (place < IslandQueue::room) {
+            queue_.events[place] = event;
         } else {
-            fail(trouble::crowded);
+            report(bodies_.counts, trouble::crowded);
         }
     }
+    /// All threads get the first event.
     __device__ PairEvent popFirst() {
-        int first = 0;
-        for (int i = 1; i < size_; ++i) {
-            if (isLater_(queue_[first], queue_[i])) first = i;
+        const std::uint32_t size = min(queue_.size, IslandQueue::room);
+        std::uint32_t first = warp_.thread_rank();
+        if (first + 32 < size && isLater_(queue_.events[first], queue_.events[first + 32])) {
+            first += 32;
         }
-        const PairEvent event = queue_[first];
-        queue_[first] = queue_[--size_];
+        bool mine = first < size;
+        const double time = mine ? queue_.events[first].time : never;
+        double earliest = time;
+        for (int apart = 16; apart > 0; apart /= 2) {
+            earliest = min(earliest, warp_.shfl_xor(earliest, apart));
+        }
+        unsigned all = warp_.ballot(mine && time == earliest);
+        int winner = __ffs(static_cast<int>(all)) - 1;
+        std::uint32_t place = warp_.shfl(first, winner);
+        for (all &= all - 1; all != 0; all &= all - 1) {
+            const std::uint32_t other = warp_.shfl(first, __ffs(static_cast<int>(all)) - 1);
+            if (isLater_(queue_.events[place], queue_.events[other])) place = other;
+        }
+        const PairEvent event = queue_.events[place];
+        warp_.sync();
+        if (leads()) {
+            queue_.events[place] = queue_.events[size - 1];
+            queue_.size = size - 1;
+        }
+        warp_.sync();
         return event;
     }
     __device__ bool isCurrent(const PairEvent& event) const {
@@ -228,13 +512,14 @@ class Island {
         if (event.time != instant_) deep_ = 0;
         instant_ = event.time;
         for (int i = 0; i < deep_; ++i) {
-            if (separated_[i].a == event.a && separated_[i].b == event.b) return true;
+            const auto& pair = queue_.separated[i];
+            if (pair.a == event.a && pair.b == event.b) return true;
         }
-        if (deep_ == mostDeep) {
+        if (deep_ == IslandQueue::mostDeep) {
             fail(trouble::crowded);
             return true;
         }
-        separated_[deep_++] = {event.a, event.b};
+        queue_.separated[deep_++] = {event.a, event.b};
         return false;
     }
 
@@ -250,35 +535,29 @@ class Island {
         if (!event.withStatic()) changed(event.b.row());
         if (done.collided() != 0) {
             ++collisions;
-            if (bodies_.records != nullptr) keep(event, makeRecord(event, contact, done));
+            if (bodies_.records != nullptr) {
+                if (kept_ == 0 || isLater_(event, after_)) after_ = event;
+                keep(bodies_, {after_, kept_++, makeRecord(event, contact, done)});
+            }
         }
         return true;
     }
     __device__ void changed(std::uint32_t row) {
         ++bodies_.stamps[row];
-        bodies_.changedIn[row] = window_.number;
-        bodies_.sketches[row] = sketchOf(motion_, row, bodies_.lists.from);
+        noteChange(bodies_, window_, row);
         if (outruns(motion_, row, window_.from, bodies_.horizon, SpeedBounds{bodies_.bound})) {
             fail(trouble::tooFast);
         }
-    }
-    __device__ void keep(const PairEvent& event, const ContactRecord& record) {
-        if (kept_ == 0 || isLater_(event, after_)) after_ = event;
-        const std::uint32_t place = countUp(&bodies_.counts->records.value);
-        if (place < bodies_.recordRoom) {
-            bodies_.records[place] = {after_, kept_, record};
-        } else {
-            fail(trouble::records);
-        }
-        ++kept_;
     }
 
     /// Finds what happens next to a body in this window, with static ones and those of its island.
     __device__ void follow(std::uint32_t row, double now) {
         const SketchSpan span = sketchSpan(bodies_.lists.from, now, window_.to, bodies_.slack);
-        const auto ours = [&](std::uint32_t other) { return bodies_.parents[other] == root_; };
-        forEachNear(bodies_, row, span, ours, [&](BodyRef other) {
-            const BodyRef one[1] = {other};
+        const PathSketch own = bodies_.sketches[row];
+        forNeighbours(bodies_, warp_, row, [&](const Neighbour& other) {
+            const bool ours = other.there & (bodies_.parents[other.row] == root_);
+            if (!ours || !near(bodies_, own, row, other, span)) return;
+            const BodyRef one[1] = {other.body};
             findFor(motion_, row, one, now, window_.to, [&](PairEvent event) {
                 event.stampA = bodies_.stamps[event.a];
                 if (!event.withStatic()) event.stampB = bodies_.stamps[event.b.row()];
@@ -287,19 +566,13 @@ class Island {
         });
     }
 
-    struct Pair {
-        std::uint32_t a;
-        BodyRef b;
-    };
-
     const EventBodies<Real>& bodies_;
     const ExactMotion<Real, StraightPath>& motion_;
     const Window& window_;
+    const Warp& warp_;
     const EventOrder isLater_;
     const std::uint32_t root_;
-    PairEvent queue_[room];
-    int size_ = 0;
-    Pair separated_[mostDeep];
+    IslandQueue& queue_;
     int deep_ = 0;
     double instant_ = -1;  // s
     PairEvent after_;      // that the last contact counts as
@@ -308,60 +581,110 @@ class Island {
 };
 
 template <class Real>
-__global__ void __launch_bounds__(islandBlock)
+__global__ void __launch_bounds__(warpsBlock)
     islandsKernel(EventBodies<Real> bodies, Window window) {
     if (troubled(bodies.counts)) return;
+    __shared__ IslandQueue queues[warpsOfBlock];
+    const auto warp = groups::tiled_partition<32>(groups::this_thread_block());
+    const std::uint32_t own = threadIdx.x / 32;
     const std::uint32_t islands = bodies.counts->islands.value;
     unsigned long long happened = 0;
     unsigned long long collisions = 0;
-    for (std::uint32_t i = threadNumber(); i < islands; i += threadCount()) {
-        Island<Real> island(bodies, window, bodies.roots[i]);
+    for (std::uint32_t i = blockIdx.x * warpsOfBlock + own; i < islands;
+         i += gridDim.x * warpsOfBlock) {
+        Island<Real> island(bodies, window, warp, bodies.roots[i], queues[own]);
         island.run();
         happened += island.happened;
         collisions += island.collisions;
+        warp.sync();
     }
     __syncthreads();
     addFromBlock(&bodies.counts->happened, happened);
     addFromBlock(&bodies.counts->collisions, collisions);
 }
 
-/// Lists what the bodies that have changed do in later windows, or takes the changes back; there
-/// are no islands afterwards.
+// ---- afterwards
+
+/// A body that may have changed: those of the islands, then both of each event.
+struct Changed {
+    std::uint32_t row;  ///< `none` if it has not
+    std::size_t slot;   ///< of what it was before
+    bool ofIsland;
+};
+
 template <class Real>
-__global__ void __launch_bounds__(largestBlock)
+__device__ Changed changedAt(const EventBodies<Real>& bodies, const Window& window, std::uint32_t i,
+                             std::uint32_t claimed, bool troubles) {
+    if (i < claimed) {
+        const std::uint32_t row = bodies.claimed[i];
+        return {bodies.changedIn[row] == window.number ? row : none, i, true};
+    }
+    const std::uint32_t side = i - claimed;
+    const std::uint32_t event = side / 2;
+    const Fate fate = bodies.fates[event];
+    const BodyRef body =
+        side % 2 == 0 ? BodyRef::moving(bodies.events[event].a) : bodies.events[event].b;
+    // The island has what became of it, unless it came to nothing.
+    const bool alone = troubles || parentOf(bodies.parents, bodies.events[event].a) == none;
+    const bool changes =
+        (fate == Fate::Change || fate == Fate::Collision) && alone && !body.isStatic();
+    return {changes ? body.row() : none, side, false};
+}
+
+/// Lists what the bodies that have changed do in later windows, or takes the changes back.
+template <class Real>
+__global__ void __launch_bounds__(tilesBlock)
     finishKernel(EventBodies<Real> bodies, Window window, WindowResult* result) {
-    const auto& m = bodies.motion.bodies.moving;
+    const auto tile = groups::tiled_partition<tileSize>(groups::this_thread_block());
     const std::uint32_t troubles = bodies.counts->troubles.value;
     const std::uint32_t claimed = min(bodies.counts->claimed.value, bodies.claimedRoom);
+    // Where there was no room for events, none was carried out.
+    constexpr std::uint32_t early =
+        trouble::partition | trouble::entries | trouble::events | trouble::notFinite;
+    const std::uint32_t events = (troubles & early) != 0 ? 0 : bodies.counts->events.value;
     const SketchSpan span = sketchSpan(bodies.lists.from, window.to, bodies.horizon, bodies.slack);
-    for (std::uint32_t i = threadNumber(); i < claimed; i += threadCount()) {
-        const std::uint32_t row = bodies.claimed[i];
-        bodies.parents[row] = none;
-        bodies.firstEvent[row] = none;
-        if (bodies.changedIn[row] != window.number) continue;
+    const std::uint32_t all = claimed + 2 * events;
+    for (std::uint32_t i = threadNumber() / tileSize; i < all; i += threadCount() / tileSize) {
+        const Changed changed = changedAt(bodies, window, i, claimed, troubles != 0);
+        if (changed.row == none) continue;
+        const std::uint32_t row = changed.row;
         if (troubles != 0) {
-            m.anchors[row] = bodies.before[i];
-            m.vx[row] = bodies.before[i].vx;
-            m.vy[row] = bodies.before[i].vy;
-            bodies.sketches[row] = sketchOf(bodies.motion, row, bodies.lists.from);
+            if (tile.thread_rank() == 0) {
+                takeBack(bodies, row,
+                         (changed.ofIsland ? bodies.before : bodies.anchorsOf)[changed.slot]);
+                bodies.sketches[row] = sketchOf(bodies.motion, row, bodies.lists.from);
+            }
             continue;
         }
-        // Of two bodies that both have changed, the first one's thread does it.
-        const auto mine = [&](std::uint32_t other) {
-            return !(bodies.changedIn[other] == window.number & other < row);
-        };
-        forEachNear(bodies, row, span, mine, [&](BodyRef other) {
-            const BodyRef one[1] = {other};
+        const PathSketch own = bodies.sketches[row];
+        forNeighbours(bodies, tile, row, [&](const Neighbour& other) {
+            // Of two bodies that both have changed, the first one's threads do it.
+            const bool theirs = (bodies.changedIn[other.row] == window.number) & (other.row < row);
+            if (!other.there || theirs || !near(bodies, own, row, other, span)) return;
+            const BodyRef one[1] = {other.body};
             findFor(bodies.motion, row, one, window.to, bodies.horizon,
                     [&](const PairEvent& event) {
                         if (event.time > window.to) listMeeting(bodies.lists, event);
                     });
         });
     }
+}
+
+/// There are no islands any more; the host is told what the window was.
+template <class Real>
+__global__ void __launch_bounds__(largestBlock)
+    reportKernel(EventBodies<Real> bodies, Window window, WindowResult* result) {
+    const std::uint32_t claimed = min(bodies.counts->claimed.value, bodies.claimedRoom);
+    for (std::uint32_t i = threadNumber(); i < claimed; i += threadCount()) {
+        const std::uint32_t row = bodies.claimed[i];
+        bodies.parents[row] = none;
+        bodies.firstEvent[row] = none;
+    }
     if (threadNumber() == 0) {
-        *result = {.troubles = troubles,
+        *result = {.troubles = bodies.counts->troubles.value,
                    .entries = bodies.lists[window.list].count->value,
                    .events = bodies.counts->events.value,
+                   .concerned = bodies.counts->concerned.value,
                    .claimed = bodies.counts->claimed.value,
                    .records = bodies.counts->records.value,
                    .happened = bodies.counts->happened,
@@ -380,18 +703,30 @@ template <class Real>
 void runWindow(const Launch& launch, const EventBodies<Real>& bodies, const Window& window,
                const WindowExpectation& expected, WindowResult* result) {
     const int size = launch.options.blockSize;
+    const auto blocks = [&](std::uint32_t items, int ofBlock, int blockSize) {
+        const unsigned most = launch.multiprocessors * (2048u / static_cast<unsigned>(blockSize));
+        return std::min(most, blocksFor(items, ofBlock));
+    };
     gatherKernel<<<blocksToFill(launch, expected.entries), size, 0, launch.stream>>>(bodies,
                                                                                      window);
     checkLaunch("gatherKernel");
-    groupKernel<<<blocksToFill(launch, expected.claimed), size, 0, launch.stream>>>(bodies);
+    aloneKernel<<<blocks(expected.events, eventsOfBlock, tilesBlock), tilesBlock, 0,
+                  launch.stream>>>(bodies, window);
+    checkLaunch("aloneKernel");
+    const unsigned forWarps = blocks(expected.concerned, warpsOfBlock, warpsBlock);
+    floodKernel<<<forWarps, warpsBlock, 0, launch.stream>>>(bodies, window);
+    checkLaunch("floodKernel");
+    groupKernel<<<blocksToFill(launch, std::max(expected.claimed, expected.events)), size, 0,
+                  launch.stream>>>(bodies, window);
     checkLaunch("groupKernel");
-    const unsigned islandBlocks =
-        std::min(launch.multiprocessors * 16u, blocksFor(expected.events, islandBlock));
-    islandsKernel<<<islandBlocks, islandBlock, 0, launch.stream>>>(bodies, window);
+    islandsKernel<<<forWarps, warpsBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("islandsKernel");
-    finishKernel<<<blocksToFill(launch, expected.claimed), size, 0, launch.stream>>>(bodies, window,
-                                                                                     result);
+    finishKernel<<<blocks(expected.claimed + 2 * expected.events, eventsOfBlock, tilesBlock),
+                   tilesBlock, 0, launch.stream>>>(bodies, window, result);
     checkLaunch("finishKernel");
+    reportKernel<<<blocksToFill(launch, expected.claimed), size, 0, launch.stream>>>(bodies, window,
+                                                                                     result);
+    checkLaunch("reportKernel");
 }
 
 #define QUADRILLE_INSTANTIATE(Real)                                                 \

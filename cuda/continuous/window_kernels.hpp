@@ -15,7 +15,7 @@ namespace quadrille::cuda {
 struct WindowResult {
     std::uint32_t troubles;
     std::uint32_t entries;  ///< in the window's list
-    std::uint32_t events, claimed, records;
+    std::uint32_t events, concerned, claimed, records;
     unsigned long long happened, collisions;
 
     // Of the partition:
@@ -26,7 +26,7 @@ struct WindowResult {
 
 /// How many items kernels are launched for.
 struct WindowExpectation {
-    std::uint32_t entries, events, claimed;
+    std::uint32_t entries, events, concerned, claimed;
 };
 
 /// Carries out the events of a window, and finds what its bodies do in later ones. Where there is

@@ -97,11 +97,13 @@ bool ResidentContinuous<Real>::load(const LawBodies<Real>& bodies, double now, P
     const BodyView<Real> view = bodies.read();
     bodies_.load(view, clock, bodies.anchors);
     measure(view);
-    for (DeviceArray<std::uint32_t>* array : {&stamps_, &parents_, &firstEvent_, &changedIn_}) {
+    for (DeviceArray<std::uint32_t>* array :
+         {&stamps_, &parents_, &firstEvent_, &changedIn_, &busyIn_, &eventOf_}) {
         array->reserve(rows);
     }
     device_.fill(stamps_, 0);
-    device_.fill(changedIn_, 0);
+    marks_.reserve(rows);
+    forgetWindows();
     device_.fill(parents_, 0xff);
     device_.fill(firstEvent_, 0xff);
     starts_.reserve(rows + 1);
@@ -114,7 +116,7 @@ bool ResidentContinuous<Real>::load(const LawBodies<Real>& bodies, double now, P
         eventRoom_ = entryRoom_ = withRoom(count / 8);
         claimedRoom_ = withRoom(count / 4);
     }
-    expected_ = {entryRoom_, eventRoom_, claimedRoom_};
+    expected_ = {entryRoom_, eventRoom_, eventRoom_ / 4, claimedRoom_};
     now_ = now;
     lists_ = {};
     done_ = 0;
@@ -187,7 +189,14 @@ EventBodies<Real> ResidentContinuous<Real>::eventBodies(bool record) const {
             .parents = parents_.data(),
             .firstEvent = firstEvent_.data(),
             .changedIn = changedIn_.data(),
+            .marks = marks_.data(),
+            .busyIn = busyIn_.data(),
+            .eventOf = eventOf_.data(),
             .events = events_.data(),
+            .fates = fates_.data(),
+            .anchorsOf = anchorsOf_.data(),
+            .recordOf = recordOf_.data(),
+            .concerned = concerned_.data(),
             .nextEvent = nextEvent_.data(),
             .roots = roots_.data(),
             .eventRoom = eventRoom_,
@@ -269,9 +278,20 @@ bool ResidentContinuous<Real>::partition(double now, double length, Step<Real>& 
     return true;
 }
 
+/// Takes away the numbers of windows.
+template <class Real>
+void ResidentContinuous<Real>::forgetWindows() {
+    device_.fill(changedIn_, 0);
+    device_.fill(busyIn_, 0);
+    device_.fill(marks_, 0);
+}
+
 template <class Real>
 WindowResult ResidentContinuous<Real>::run(double from, double to, Step<Real>& step) {
     events_.reserve(eventRoom_);
+    fates_.reserve(eventRoom_);
+    anchorsOf_.reserve(2 * std::size_t(eventRoom_));
+    concerned_.reserve(eventRoom_);
     nextEvent_.reserve(eventRoom_);
     roots_.reserve(eventRoom_);
     claimed_.reserve(claimedRoom_);
@@ -279,9 +299,10 @@ WindowResult ResidentContinuous<Real>::run(double from, double to, Step<Real>& s
     if (step.keepContacts) {
         recordRoom_ = std::max(recordRoom_, withRoom(eventRoom_ / 4));
         device_.reserveZeroed(recorded_, recordRoom_);
+        device_.reserveZeroed(recordOf_, eventRoom_);
     }
     if (++number_ == 0) {
-        device_.fill(changedIn_, 0);
+        forgetWindows();
         number_ = 2;  // even, as counts take turns
     }
     const double farthest = farthest_ + bound_ * lists_.windows / lists_.perSecond;
@@ -383,7 +404,8 @@ double ResidentContinuous<Real>::step(Step<Real>& step) {
         ++done_;
         ++part;
         now_ = to;
-        expected_ = {withRoom(result.entries), withRoom(result.events), withRoom(result.claimed)};
+        expected_ = {withRoom(result.entries), withRoom(result.events), withRoom(result.concerned),
+                     withRoom(result.claimed)};
         step.counts.events += result.happened;
         step.counts.contacts += result.collisions;
         step.counts.collisions += result.collisions;

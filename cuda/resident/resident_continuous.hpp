@@ -47,6 +47,7 @@ class ResidentContinuous final : public ResidentPipeline<Real> {
     std::uint32_t chooseWindows(double length) const;
     bool covers(double from, double to) const;
     bool partition(double now, double length, Step<Real>& step);
+    void forgetWindows();
     WindowResult run(double from, double to, Step<Real>& step);
     bool mend(const WindowResult& result);
     void keepRecords(std::uint32_t count);
@@ -59,7 +60,9 @@ class ResidentContinuous final : public ResidentPipeline<Real> {
 
     // By rows:
     DeviceArray<std::uint32_t> stamps_{device_.budget()}, parents_{device_.budget()},
-        firstEvent_{device_.budget()}, changedIn_{device_.budget()};
+        firstEvent_{device_.budget()}, changedIn_{device_.budget()}, busyIn_{device_.budget()},
+        eventOf_{device_.budget()};
+    DeviceArray<EventMark> marks_{device_.budget()};
     DeviceArray<std::uint32_t> starts_{device_.budget()};  // and the end
     DeviceArray<PathSketch> sketches_{device_.budget()};
 
@@ -75,7 +78,11 @@ class ResidentContinuous final : public ResidentPipeline<Real> {
 
     // Of a window:
     DeviceArray<PairEvent> events_{device_.budget()};
-    DeviceArray<std::uint32_t> nextEvent_{device_.budget()}, roots_{device_.budget()};
+    DeviceArray<Fate> fates_{device_.budget()};
+    DeviceArray<Anchor<Real>> anchorsOf_{device_.budget()};
+    DeviceArray<ContactRecord> recordOf_{device_.budget()};
+    DeviceArray<std::uint32_t> concerned_{device_.budget()}, nextEvent_{device_.budget()},
+        roots_{device_.budget()};
     DeviceArray<std::uint32_t> claimed_{device_.budget()};
     DeviceArray<Anchor<Real>> before_{device_.budget()};
     DeviceArray<RecordedContact> recorded_{device_.budget()};
