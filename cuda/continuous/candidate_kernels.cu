@@ -2,6 +2,7 @@
 #include "cuda/continuous/candidate_kernels.hpp"
 #include "cuda/continuous/window_lists.cuh"
 #include "cuda/device/launch.cuh"
+#include "cuda/device/warp_tasks.cuh"
 
 namespace quadrille::cuda {
 
@@ -54,24 +55,33 @@ template <class Real>
 __global__ void __launch_bounds__(largestBlock)
     linkAndFindKernel(EventBodies<Real> bodies, const CandidatePair* pairs, std::uint32_t* ends,
                       BodyRef* others, double now) {
+    extern __shared__ CandidatePair nearPairs[];
     const unsigned long long count = bodies.found->candidates;
     if (count > bodies.pairRoom) return;
-    const SketchSpan span = sketchSpan(now, now, bodies.horizon, bodies.slack);
-    for (std::uint32_t i = threadNumber(); i < count; i += threadCount()) {
-        const CandidatePair pair = pairs[i];
-        others[atomicSub(&ends[pair.a], 1u) - 1] = pair.b;
-        if (!pair.b.isStatic()) {
-            others[atomicSub(&ends[pair.b.row()], 1u) - 1] = BodyRef::moving(pair.a);
-        }
-        if (!pair.b.isStatic() && !isNear(bodies.sketches[pair.a], bodies.sketches[pair.b.row()],
-                                          sketchSize(bodies.motion, pair.a),
-                                          sketchSize(bodies.motion, pair.b.row()), span)) {
-            continue;
-        }
+    WarpTasks<CandidatePair> waiting(nearPairs + threadIdx.x / 32 * WarpTasks<CandidatePair>::room);
+    const auto find = [&](const CandidatePair& pair) {
         findNext(bodies.motion, pair.a, bodies.motion.paths(pair.a), pair.b,
                  bodies.motion.paths(pair.b), now, bodies.horizon, false,
                  [&](const PairEvent& event) { listMeeting(bodies.lists, event); });
+    };
+    const SketchSpan span = sketchSpan(now, now, bodies.horizon, bodies.slack);
+    for (std::uint32_t first = threadNumber() / 32 * 32; first < count; first += threadCount()) {
+        const std::uint32_t i = first + threadIdx.x % 32;
+        const bool there = i < count;
+        const CandidatePair pair = pairs[there ? i : first];
+        bool near = there;
+        if (there) {
+            others[atomicSub(&ends[pair.a], 1u) - 1] = pair.b;
+            if (!pair.b.isStatic()) {
+                others[atomicSub(&ends[pair.b.row()], 1u) - 1] = BodyRef::moving(pair.a);
+                near = isNear(bodies.sketches[pair.a], bodies.sketches[pair.b.row()],
+                              sketchSize(bodies.motion, pair.a),
+                              sketchSize(bodies.motion, pair.b.row()), span);
+            }
+        }
+        waiting.add(near, pair, find);
     }
+    waiting.flush(find);
 }
 
 }  // namespace
@@ -95,8 +105,10 @@ void countNeighbours(const Launch& launch, const EventBodies<Real>& bodies,
 template <class Real>
 void linkAndFind(const Launch& launch, const EventBodies<Real>& bodies, const CandidatePair* pairs,
                  std::uint32_t expected, std::uint32_t* ends, BodyRef* others, double now) {
-    linkAndFindKernel<<<blocksToFill(launch, expected), launch.options.blockSize, 0,
-                        launch.stream>>>(bodies, pairs, ends, others, now);
+    const int size = launch.options.blockSize;
+    const std::size_t shared = size / 32 * WarpTasks<CandidatePair>::room * sizeof(CandidatePair);
+    linkAndFindKernel<<<blocksToFill(launch, expected), size, shared, launch.stream>>>(
+        bodies, pairs, ends, others, now);
     checkLaunch("linkAndFindKernel");
 }
 

@@ -6,6 +6,7 @@
 #include "cuda/continuous/window_kernels.hpp"
 #include "cuda/continuous/window_lists.cuh"
 #include "cuda/device/launch.cuh"
+#include "cuda/device/warp_tasks.cuh"
 
 namespace quadrille::cuda {
 
@@ -20,7 +21,8 @@ using Warp = groups::thread_block_tile<32>;
 
 /// Blocks of a fixed size, for kernels that share memory or need many registers.
 constexpr int tilesBlock = 256;
-constexpr int eventsOfBlock = tilesBlock / tileSize;
+constexpr int tilesOfBlock = tilesBlock / tileSize;
+constexpr int eventsBlock = 64;
 constexpr int warpsBlock = 128;
 constexpr int warpsOfBlock = warpsBlock / 32;
 
@@ -194,50 +196,46 @@ __device__ bool concerns(const EventBodies<Real>& bodies, const Window& window, 
     return tile.any(meets);
 }
 
-/// Carries out the events that concern nobody but their bodies, and finds those that do: whoever is
-/// near their bodies has none, and their new paths meet nobody in this window. Sketches stay as
-/// they were, so that all see who was near; paths of bodies with events are nobody else's to look
-/// at.
+/// Carries out each event as if it concerned nobody but its bodies.
 template <class Real>
-__global__ void __launch_bounds__(tilesBlock) aloneKernel(EventBodies<Real> bodies, Window window) {
+__global__ void __launch_bounds__(eventsBlock) tryKernel(EventBodies<Real> bodies, Window window) {
     if (troubled(bodies.counts)) return;
-    __shared__ Fate fates[eventsOfBlock];
+    const std::uint32_t count = bodies.counts->events.value;
+    for (std::uint32_t i = threadNumber(); i < count; i += threadCount()) {
+        bodies.fates[i] = tryAlone(bodies, window, i);
+    }
+}
+
+/// Finds the events that do concern others, and takes them back: those with another event near
+/// their bodies, or whose new paths meet anybody in this window. Sketches stay as they were, so
+/// that all see who was near; paths of bodies with events are nobody else's to look at.
+template <class Real>
+__global__ void __launch_bounds__(tilesBlock, 4)
+    concernKernel(EventBodies<Real> bodies, Window window) {
+    if (troubled(bodies.counts)) return;
     const auto tile = groups::tiled_partition<tileSize>(groups::this_thread_block());
     const std::uint32_t count = bodies.counts->events.value;
-    const std::uint32_t own = threadIdx.x / tileSize;
-    for (std::uint32_t first = blockIdx.x * eventsOfBlock; first < count;
-         first += gridDim.x * eventsOfBlock) {
-        if (threadIdx.x < eventsOfBlock && first + threadIdx.x < count) {
-            fates[threadIdx.x] = tryAlone(bodies, window, first + threadIdx.x);
-        }
-        __syncthreads();
-        const std::uint32_t i = first + own;
-        if (i < count) {
-            const PairEvent event = bodies.events[i];
-            const std::uint32_t b = event.withStatic() ? none : event.b.row();
-            Fate fate = fates[own];
-            if (fate == Fate::Change || fate == Fate::Collision) {
-                const bool concerned =
-                    concerns(bodies, window, tile, event, event.a, b) ||
-                    (b != none && concerns(bodies, window, tile, event, b, event.a));
-                if (concerned) {
-                    fate = Fate::Concerned;
-                    if (tile.thread_rank() == 0) {
-                        takeBack(bodies, event.a, bodies.anchorsOf[2 * std::size_t(i)]);
-                        if (b != none) {
-                            takeBack(bodies, b, bodies.anchorsOf[2 * std::size_t(i) + 1]);
-                        }
-                    }
-                }
+    for (std::uint32_t i = threadNumber() / tileSize; i < count; i += threadCount() / tileSize) {
+        const Fate fate = bodies.fates[i];
+        if (fate == Fate::Nothing) continue;
+        bool concerned = fate == Fate::Concerned;
+        const PairEvent event = bodies.events[i];
+        const std::uint32_t b = event.withStatic() ? none : event.b.row();
+        if (!concerned) {
+#pragma unroll 1  // twice the code would take more registers
+            for (int side = 0; side < 2 && !concerned; ++side) {
+                const std::uint32_t row = side == 0 ? event.a : b;
+                if (row == none) break;
+                concerned = concerns(bodies, window, tile, event, row, side == 0 ? b : event.a);
             }
-            if (tile.thread_rank() == 0) {
-                bodies.fates[i] = fate;
-                if (fate == Fate::Concerned) {
-                    bodies.concerned[countUp(&bodies.counts->concerned.value)] = i;
-                }
+            if (concerned && tile.thread_rank() == 0) {
+                takeBack(bodies, event.a, bodies.anchorsOf[2 * std::size_t(i)]);
+                if (b != none) takeBack(bodies, b, bodies.anchorsOf[2 * std::size_t(i) + 1]);
             }
         }
-        __syncthreads();
+        if (!concerned || tile.thread_rank() != 0) continue;
+        bodies.fates[i] = Fate::Concerned;
+        bodies.concerned[countUp(&bodies.counts->concerned.value)] = i;
     }
 }
 
@@ -612,6 +610,12 @@ struct Changed {
     bool ofIsland;
 };
 
+/// A body that has changed and another that it may meet.
+struct NearPair {
+    std::uint32_t row;
+    std::uint32_t other;  ///< BodyRef::bits; shared memory has nothing with initial values
+};
+
 template <class Real>
 __device__ Changed changedAt(const EventBodies<Real>& bodies, const Window& window, std::uint32_t i,
                              std::uint32_t claimed, bool troubles) {
@@ -633,9 +637,17 @@ __device__ Changed changedAt(const EventBodies<Real>& bodies, const Window& wind
 
 /// Lists what the bodies that have changed do in later windows, or takes the changes back.
 template <class Real>
-__global__ void __launch_bounds__(tilesBlock)
-    finishKernel(EventBodies<Real> bodies, Window window, WindowResult* result) {
-    const auto tile = groups::tiled_partition<tileSize>(groups::this_thread_block());
+__global__ void __launch_bounds__(tilesBlock, 4)
+    finishKernel(EventBodies<Real> bodies, Window window) {
+    __shared__ NearPair nearPairs[tilesBlock / 32][WarpTasks<NearPair>::room];
+    WarpTasks<NearPair> waiting(nearPairs[threadIdx.x / 32]);
+    const auto find = [&](const NearPair& pair) {
+        const BodyRef one[1] = {{pair.other}};
+        findFor(bodies.motion, pair.row, one, window.to, bodies.horizon,
+                [&](const PairEvent& event) {
+                    if (event.time > window.to) listMeeting(bodies.lists, event);
+                });
+    };
     const std::uint32_t troubles = bodies.counts->troubles.value;
     const std::uint32_t claimed = min(bodies.counts->claimed.value, bodies.claimedRoom);
     // Where there was no room for events, none was carried out.
@@ -644,30 +656,38 @@ __global__ void __launch_bounds__(tilesBlock)
     const std::uint32_t events = (troubles & early) != 0 ? 0 : bodies.counts->events.value;
     const SketchSpan span = sketchSpan(bodies.lists.from, window.to, bodies.horizon, bodies.slack);
     const std::uint32_t all = claimed + 2 * events;
-    for (std::uint32_t i = threadNumber() / tileSize; i < all; i += threadCount() / tileSize) {
-        const Changed changed = changedAt(bodies, window, i, claimed, troubles != 0);
-        if (changed.row == none) continue;
+    // A tile for each body; the warp stays together.
+    constexpr std::uint32_t together = 32 / tileSize;
+    const std::uint32_t rank = threadIdx.x % tileSize;
+    for (std::uint32_t first = threadNumber() / 32 * together; first < all;
+         first += threadCount() / 32 * together) {
+        const std::uint32_t i = first + threadIdx.x % 32 / tileSize;
+        Changed changed{none, 0, false};
+        if (i < all) changed = changedAt(bodies, window, i, claimed, troubles != 0);
         const std::uint32_t row = changed.row;
         if (troubles != 0) {
-            if (tile.thread_rank() == 0) {
+            if (row != none && rank == 0) {
                 takeBack(bodies, row,
                          (changed.ofIsland ? bodies.before : bodies.anchorsOf)[changed.slot]);
                 bodies.sketches[row] = sketchOf(bodies.motion, row, bodies.lists.from);
             }
             continue;
         }
-        const PathSketch own = bodies.sketches[row];
-        forNeighbours(bodies, tile, row, [&](const Neighbour& other) {
+        const std::uint32_t self = row == none ? 0 : row;
+        const PathSketch own = bodies.sketches[self];
+        const std::uint32_t last = row == none ? 0 : bodies.starts[row + 1];
+        std::uint32_t place = row == none ? 0 : bodies.starts[row] + rank;
+        for (; __any_sync(0xffff'ffffu, place < last); place += tileSize) {
+            const bool there = place < last;
+            const BodyRef body = there ? bodies.others[place] : BodyRef::fixed(0);
+            const Neighbour other{body, body.isStatic() ? self : body.row(), there};
             // Of two bodies that both have changed, the first one's threads do it.
             const bool theirs = (bodies.changedIn[other.row] == window.number) & (other.row < row);
-            if (!other.there || theirs || !near(bodies, own, row, other, span)) return;
-            const BodyRef one[1] = {other.body};
-            findFor(bodies.motion, row, one, window.to, bodies.horizon,
-                    [&](const PairEvent& event) {
-                        if (event.time > window.to) listMeeting(bodies.lists, event);
-                    });
-        });
+            const bool comes = near(bodies, own, self, other, span);
+            waiting.add(there & !theirs & comes, {row, body.bits}, find);
+        }
     }
+    waiting.flush(find);
 }
 
 /// There are no islands any more; the host is told what the window was.
@@ -710,9 +730,12 @@ void runWindow(const Launch& launch, const EventBodies<Real>& bodies, const Wind
     gatherKernel<<<blocksToFill(launch, expected.entries), size, 0, launch.stream>>>(bodies,
                                                                                      window);
     checkLaunch("gatherKernel");
-    aloneKernel<<<blocks(expected.events, eventsOfBlock, tilesBlock), tilesBlock, 0,
-                  launch.stream>>>(bodies, window);
-    checkLaunch("aloneKernel");
+    tryKernel<<<blocks(expected.events, eventsBlock, eventsBlock), eventsBlock, 0, launch.stream>>>(
+        bodies, window);
+    checkLaunch("tryKernel");
+    concernKernel<<<blocks(expected.events, tilesOfBlock, tilesBlock), tilesBlock, 0,
+                    launch.stream>>>(bodies, window);
+    checkLaunch("concernKernel");
     const unsigned forWarps = blocks(expected.concerned, warpsOfBlock, warpsBlock);
     floodKernel<<<forWarps, warpsBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("floodKernel");
@@ -721,8 +744,8 @@ void runWindow(const Launch& launch, const EventBodies<Real>& bodies, const Wind
     checkLaunch("groupKernel");
     islandsKernel<<<forWarps, warpsBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("islandsKernel");
-    finishKernel<<<blocks(expected.claimed + 2 * expected.events, eventsOfBlock, tilesBlock),
-                   tilesBlock, 0, launch.stream>>>(bodies, window, result);
+    finishKernel<<<blocks(expected.claimed + 2 * expected.events, tilesOfBlock, tilesBlock),
+                   tilesBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("finishKernel");
     reportKernel<<<blocksToFill(launch, expected.claimed), size, 0, launch.stream>>>(bodies, window,
                                                                                      result);

@@ -1,6 +1,7 @@
 #include "collision/rules/cell_ownership.hpp"
 #include "collision/rules/pair_geometry.hpp"
 #include "cuda/device/launch.cuh"
+#include "cuda/device/warp_tasks.cuh"
 #include "cuda/pairs/pair_kernels.hpp"
 
 // The narrow phase: which pairs of bodies overlap.
@@ -110,41 +111,11 @@ __device__ inline std::uint32_t cellOf(const DeviceCells& cells, std::uint32_t e
     return low;
 }
 
-/// Pairs that a warp has found and not handed out yet. Handing out takes long, and the threads of a
-/// warp find different numbers of pairs, so they share what they have found, 32 at a time.
-class FoundPairs {
-  public:
-    /// A pair of entries of a cell.
-    struct Pair {
-        std::uint32_t cell, p, q;
-    };
-    static constexpr std::uint32_t room = 64;
-
-    __device__ explicit FoundPairs(Pair* ofWarp) : pairs_(ofWarp) {}
-
-    /// All threads of the warp come here together, those with a `hit` to leave a pair.
-    template <class HandOut>
-    __device__ void add(bool hit, const Pair& pair, const HandOut& handOut) {
-        const unsigned hits = __ballot_sync(0xffff'ffffu, hit);
-        const unsigned before = (1u << threadIdx.x % 32) - 1;
-        if (hit) pairs_[count_ + __popc(hits & before)] = pair;
-        count_ += __popc(hits);
-        if (count_ >= 32) flush(handOut);
-    }
-    /// Hands out up to 32 pairs.
-    template <class HandOut>
-    __device__ void flush(const HandOut& handOut) {
-        __syncwarp();
-        const std::uint32_t size = min(count_, 32u);
-        count_ -= size;
-        if (threadIdx.x % 32 < size) handOut(pairs_[count_ + threadIdx.x % 32]);
-        __syncwarp();
-    }
-
-  private:
-    Pair* pairs_;
-    std::uint32_t count_ = 0;  // the same in all threads of the warp
+/// A pair of entries of a cell that has been found.
+struct FoundPair {
+    std::uint32_t cell, p, q;
 };
+using FoundPairs = WarpTasks<FoundPair>;
 
 /// A thread for each body in each cell. Member i meets the half of the others that follow it, the
 /// first after the last, so that all members have as much to do.
@@ -154,9 +125,9 @@ __global__ void __launch_bounds__(largestBlock)
                    Real inflation, Found found, StepCounts* counts) {
     // Several pairs are compared before one is handed out, so that their loads overlap.
     constexpr std::uint32_t together = 8;
-    extern __shared__ FoundPairs::Pair foundPairs[];
+    extern __shared__ FoundPair foundPairs[];
     FoundPairs waiting(foundPairs + threadIdx.x / 32 * FoundPairs::room);
-    const auto handOutPair = [&](const FoundPairs::Pair& pair) {
+    const auto handOutPair = [&](const FoundPair& pair) {
         handOut(ownership, pair.cell, Member<Real>(bodies, cells, pair.p),
                 Member<Real>(bodies, cells, pair.q), found);
     };
@@ -231,7 +202,7 @@ void comparePairs(const Launch& launch, const Bodies<Real>& bodies, const Device
         comparePerCell<<<blocksFor(cells.cells, size), size, 0, launch.stream>>>(
             bodies, cells, ownership, inflation, found, counts);
     } else {
-        const std::size_t shared = size / 32 * FoundPairs::room * sizeof(FoundPairs::Pair);
+        const std::size_t shared = size / 32 * FoundPairs::room * sizeof(FoundPair);
         comparePerBody<<<blocksFor(cells.entries, size), size, shared, launch.stream>>>(
             bodies, cells, ownership, inflation, found, counts);
     }

@@ -30,7 +30,7 @@ constexpr double mostWay = 0.5;
 constexpr double shortestWindow = 0x1p-18;
 
 /// What a partition costs a body, against what a pair costs in it (docs/performance.md).
-constexpr double buildPrice = 1, pairPrice = 0.35;
+constexpr double buildPrice = 1, pairPrice = 0.9;
 
 std::uint32_t withRoom(std::uint64_t count) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(count + count / 2 + 1024, none / 2));
@@ -49,7 +49,7 @@ ResidentContinuous<Real>::ResidentContinuous(const SimulationConfig& config, con
 
 template <class Real>
 bool ResidentContinuous<Real>::runs() const {
-    return config_.step.gravity == Vec2(0, 0) && config_.step.restitution == 1;
+    return staysOnDevice(Law::Continuous, config_.step);
 }
 
 template <class Real>

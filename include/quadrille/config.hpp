@@ -25,6 +25,12 @@ struct StepSettings {
     double restitution = 1;  ///< in [0, 1]
 };
 
+/// Whether the resolver CudaResident does such steps of a law on its device. Others it leaves to
+/// the host, with the same result.
+inline bool staysOnDevice(Law law, const StepSettings& step) {
+    return law != Law::Continuous || (step.gravity == Vec2(0, 0) && step.restitution == 1);
+}
+
 struct SimulationConfig {
     PartitionerConfig partitioner = SemiStaticQuadtree{};
     /// The exact one; `impulse` is the choice where speed counts more (docs/accuracy.md).

@@ -32,9 +32,9 @@ std::string_view aboutOf(Law law) {
 }
 
 /// Which steps a resolver that keeps the bodies on a device leaves to the host.
-std::string stepsOfHost(const SimulationConfig& config, const ModelFeatures& f) {
+std::string stepsOfHost(const SimulationConfig& config) {
     const bool exact = config.law == Law::Continuous;
-    if (exact && (f.gravity || f.inelastic)) {
+    if (!staysOnDevice(config.law, config.step)) {
         return "all: with gravity or loss, this law does not run on the device";
     }
     std::string left = exact ? "the first, those after edits, and too crowded ones" : "";
@@ -53,7 +53,7 @@ void explainResident(std::ostream& out, const SimulationConfig& config, const Mo
     const bool read = f.listeners || window;
     row(out, read, "bodies read each step",
         read ? "positions and velocities are copied to the host" : "they stay on the device");
-    const std::string left = stepsOfHost(config, f);
+    const std::string left = stepsOfHost(config);
     row(out, !left.empty(), "steps on the host", left);
 }
 

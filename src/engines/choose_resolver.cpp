@@ -11,8 +11,8 @@ namespace quadrille {
 namespace {
 
 /// From how many moving bodies on a device is faster than any number of threads, as measured on an
-/// H100 beside 16 cores (docs/performance.md).
-constexpr std::size_t cudaPaysFrom = 10'000;
+/// H100 and an H200 beside 16 cores (docs/performance.md).
+constexpr std::size_t devicePaysFrom = 10'000;
 
 /// From how many moving bodies on so many threads are worth it, measured there and on 2 cores.
 std::size_t threadsPayFrom(int threads) { return threads >= 4 ? 5'000 : 10'000; }
@@ -21,8 +21,12 @@ std::size_t threadsPayFrom(int threads) { return threads >= 4 ? 5'000 : 10'000; 
 
 ResolverKind chooseResolver(const SimulationConfig& config, std::size_t movingCount) {
     // The device is looked for last: that takes longer than many a small run.
+    if (config.law == Law::Continuous && staysOnDevice(config.law, config.step) &&
+        movingCount >= devicePaysFrom && findCudaDevice().usable()) {
+        return ResolverKind::CudaResident;
+    }
     if (runsOn(config.law, ResolverKind::Cuda) && runsOn(config.law, ResolverKind::Threads) &&
-        movingCount >= cudaPaysFrom && findCudaDevice().usable()) {
+        movingCount >= devicePaysFrom && findCudaDevice().usable()) {
         return ResolverKind::Cuda;
     }
     const int threads = config.threads > 0 ? config.threads : Simulation::cores();

@@ -124,6 +124,12 @@ TEST(Auto, TakesADeviceForManyBodiesIfThereIsOne) {
     if (!findCudaDevice().usable()) GTEST_SKIP() << "there is none";
     EXPECT_EQ(chosen(Law::Impulse, 16, 10'000), ResolverKind::Cuda);
     EXPECT_EQ(chosen(Law::Impulse, 16, 9'999), ResolverKind::Threads);
+    EXPECT_EQ(chosen(Law::Continuous, 16, 10'000), ResolverKind::CudaResident);
+    EXPECT_EQ(chosen(Law::Continuous, 16, 9'999), ResolverKind::Threads);
+    SimulationConfig falling{.law = Law::Continuous, .resolver = ResolverKind::Auto, .threads = 16};
+    falling.step.gravity = {0, -10};
+    EXPECT_EQ(chooseResolver(falling, 1'000'000), ResolverKind::Threads)
+        << "the device would leave each step to the host";
 }
 
 TEST(Auto, TakesOnlyWhatRunsTheLaw) {

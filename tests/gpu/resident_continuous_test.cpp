@@ -1,7 +1,9 @@
 // The law `continuous` on the resolver `cuda-resident` gives the bits of the sequential one; what
 // the device does not do, the host does, with the same bits.
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <optional>
@@ -33,9 +35,8 @@ struct CellsCase {
 std::ostream& operator<<(std::ostream& out, const CellsCase& cells) { return out << cells.name; }
 
 const std::vector<CellsCase> partitioners = {
-    {"grid", StaticGrid{}},
-    {"coarseGrid", StaticGrid{{300, 200}}},
-    {"quadtree", Quadtree{}},
+    {"grid", StaticGrid{}},           {"coarseGrid", StaticGrid{{300, 200}}},
+    {"fineGrid", StaticGrid{{5, 3}}}, {"quadtree", Quadtree{}},
     {"skin", SemiStaticQuadtree{}},
 };
 
@@ -252,6 +253,38 @@ TEST(ResidentExact, MakesRoomAndLosesNothing) {
     };
     const std::uint64_t contacts = expectLockstep(lattice, exact(), 30);
     EXPECT_GT(contacts, 20'000u);
+}
+
+/// Each is ten times as heavy as the next, so that the last one leaves several times as fast as any
+/// body was when the partition was made.
+TEST(ResidentExact, FollowsBodiesThatOutrunThePartition) {
+    QUADRILLE_NEEDS_DEVICE();
+    const auto rows = [] {
+        World world = gas(30, 8, 3, false, false);
+        for (int row = 0; row < 6; ++row) {
+            for (int i = 0; i < 6; ++i) {
+                makeBox(world, {200.0 + 5 * i, 40.0 * row - 100},
+                        moving(i == 0 ? 9 : 0, 0, std::pow(10.0, 5 - i)), {3, 3});
+            }
+        }
+        return world;
+    };
+    SimulationConfig config = exact();
+    config.resolver = ResolverKind::Sequential;
+    Simulation host(rows(), config);
+    config.resolver = ResolverKind::CudaResident;
+    Simulation device(rows(), config);
+    std::uint64_t left = 0;
+    for (int i = 0; i < 60; ++i) {
+        host.step();
+        left += device.step().leftToHost;
+    }
+    EXPECT_EQ(stateHash(device.world()), stateHash(host.world()));
+    EXPECT_LT(left, 10u);
+    double fastest = 0;
+    host.world().each<PhysicsBody>(
+        [&](Entity, const PhysicsBody& body) { fastest = std::max(fastest, body.velocity.x()); });
+    EXPECT_GT(fastest, 100) << "else nothing outran what was allowed for";
 }
 
 }  // namespace
