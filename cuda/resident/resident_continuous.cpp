@@ -288,7 +288,8 @@ void ResidentContinuous<Real>::forgetWindows() {
 
 template <class Real>
 WindowResult ResidentContinuous<Real>::run(double from, double to, Step<Real>& step) {
-    events_.reserve(eventRoom_);
+    // Gaps between members are copied, too.
+    device_.reserveZeroed(events_, eventRoom_);
     fates_.reserve(eventRoom_);
     anchorsOf_.reserve(2 * std::size_t(eventRoom_));
     concerned_.reserve(eventRoom_);
