@@ -147,9 +147,12 @@ void SharedEvents<Real, Path>::undo(const Search& search, EventLoopState& whole)
         for (const Before& before : share.before) {
             if (search.stamp(before.row) == before.stamp) continue;
             m.anchors[before.row] = before.anchor;
-            m.vx[before.row] = before.anchor.vx;
-            m.vy[before.row] = before.anchor.vy;
-            if constexpr (Path::falls) m.rests[before.row] = before.rests;
+            if constexpr (Path::falls) {
+                m.rests[before.row] = before.rests;
+            } else {
+                m.vx[before.row] = before.anchor.vx;
+                m.vy[before.row] = before.anchor.vy;
+            }
             search.restore(before.row, before.stamp);
         }
     }
