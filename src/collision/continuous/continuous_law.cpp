@@ -343,7 +343,7 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     // touching.
     const double room = 2 * touchTolerance * largest_;
     constexpr double eps =
-        (8 + mostEdits / 2) * static_cast<double>(std::numeric_limits<Real>::epsilon());
+        (8 + 0.5 * mostEdits) * static_cast<double>(std::numeric_limits<Real>::epsilon());
     farthest_ += boundOf(fastest_) * life;
     const auto wayAt = [&](double bound) {
         return static_cast<Real>(bound * life * (1 + 1e-6) + eps * farthest_ + room);
