@@ -51,11 +51,5 @@ endif()
 if(QUADRILLE_SANITIZE)
   target_compile_options(quadrille_compiler INTERFACE
     -fsanitize=${QUADRILLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  if(QUADRILLE_SANITIZE MATCHES undefined)
-    # These look at each use of a pointer and double what compiling takes. The address sanitizer sees the
-    # accesses that they guard; that of dynamic types also needs a free descriptor to look at memory.
-    target_compile_options(quadrille_compiler INTERFACE
-      -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr)
-  endif()
   target_link_options(quadrille_compiler INTERFACE -fsanitize=${QUADRILLE_SANITIZE})
 endif()

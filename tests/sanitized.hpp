@@ -20,4 +20,7 @@ inline constexpr bool sanitized = false;
 /// times and looks for what nearly every scene would show.
 constexpr std::uint64_t scenesOf(std::uint64_t all) { return sanitized ? (all + 4) / 5 : all; }
 
+/// And for how many steps it runs a scene whose later steps are like the earlier ones.
+constexpr std::uint64_t stepsOf(std::uint64_t all) { return scenesOf(all); }
+
 }  // namespace quadrille

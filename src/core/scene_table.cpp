@@ -134,7 +134,7 @@ std::optional<std::string> SceneTable::string(std::string_view key) {
 std::optional<Vec2> SceneTable::numbers(std::string_view key, const char* shape) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
-    const auto value = pairOfNumbers(*node);
+    auto value = pairOfNumbers(*node);
     if (!value) fail(key, std::string("must be two finite numbers, ") + shape);
     return value;
 }
@@ -142,7 +142,7 @@ std::optional<Vec2> SceneTable::numbers(std::string_view key, const char* shape)
 std::optional<Vec2> SceneTable::vector(std::string_view key) { return numbers(key, "[x, y]"); }
 
 std::optional<Vec2> SceneTable::positiveVector(std::string_view key) {
-    const auto value = numbers(key, "[width, height]");
+    auto value = numbers(key, "[width, height]");
     if (value && !(value->minCoeff() > 0)) fail(key, "must be positive");
     // Bodies keep half of their sizes.
     if (value && !(value->minCoeff() / 2 > 0)) fail(key, "is too small");
@@ -150,7 +150,7 @@ std::optional<Vec2> SceneTable::positiveVector(std::string_view key) {
 }
 
 std::optional<Vec2> SceneTable::range(std::string_view key) {
-    const auto value = numbers(key, "[low, high]");
+    auto value = numbers(key, "[low, high]");
     if (value && !(value->x() <= value->y())) fail(key, "must not end below its start");
     return value;
 }

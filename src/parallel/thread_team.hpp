@@ -26,6 +26,9 @@ struct Thresholds {
     /// Threads from which on a graph of contacts gains something: it costs about three times what
     /// it costs one thread to resolve the same contacts.
     unsigned graphThreads = 5;
+    /// Threads from which on events gain from being shared out where bodies can heap up: under
+    /// gravity, or with restitution below 1. Two lose by it.
+    unsigned heapThreads = 4;
     /// References in a part of a tree at the most: as many as a thread builds in its cache.
     std::size_t treePart = 1024;
     /// Bodies in islands for each event: to claim so many costs a little more than to carry out the
@@ -48,6 +51,7 @@ struct Thresholds {
                 .copied = 0,
                 .events = 0,
                 .graphThreads = 0,
+                .heapThreads = 0,
                 .treePart = 1,
                 .bodiesPerEvent = std::size_t(1) << 31,
                 .eventQuarters = 4,

@@ -63,14 +63,13 @@ struct Event {
 ///   touching distance, rests there, without acceleration, until something hits it or its support,
 ///   or it slides off.
 /// - With restitution < 1, boxes that touch and move together collide as one (Moreau: simultaneous
-///   impacts). What stands behind a static box, or rests in the direction of the push, is held, and
-///   what hits it rebounds as from a static box. A rebound slower than `restSpeed` is none: both
+///   impacts). What is pushed against a static box, or against what it rests on, is held, and what
+///   hits it rebounds as from a static box. A rebound slower than `restSpeed` is none: both
 ///   sides go on with their common velocity. Boxes that approach slower than `creepSpeed` do not
 ///   collide. Contacts slower than `restSpeed` are not in events().
-/// - A box that collides over `mostAtOnce` times within 2^-30 s, or while touching within 2^-15 s
-/// at
-///   restitution 1, is jammed: it loses what it collides with. If it is so often deep inside others
-///   (over `mostDeepAtOnce` times), pairs of moving boxes let each other pass.
+/// - A box that collides over `mostAtOnce` times within 2^-30 s, or, at restitution 1, while it
+///   touches within 2^-15 s, is jammed: it loses what it collides with. Moving boxes that are deep
+///   inside each other, one of them over `mostDeepAtOnce` times at once, let each other pass.
 class Oracle {
   public:
     static constexpr double touchDistance = 1e-9;  ///< of the distance of contact

@@ -13,6 +13,13 @@ constexpr double restSpeed = Oracle::restSpeed;
 /// Rounding of positions, relative to their magnitude; some thousand ulps, as errors add up.
 constexpr double relativeRounding = 1e-12;
 
+/// Approaches up to this, px/s, come from rounding.
+double creep(double va, double vb, double restitution) {
+    constexpr double eps = 1e-15;
+    if (restitution == 1) return 0;
+    return std::max(Oracle::creepSpeed, eps * (std::abs(va) + std::abs(vb)));
+}
+
 }  // namespace
 
 TrackModel::TrackModel(const std::vector<Box>& boxes, const Vec2& gravity, double restitution,
@@ -78,21 +85,14 @@ TrackModel::Meeting TrackModel::meet(std::int64_t i, std::int64_t j, int k, doub
             .creep = creep(a.speed(now), b.speed(now), restitution_)};
 }
 
-/// Approaches up to this, px/s, come from rounding.
-double TrackModel::creep(double va, double vb, double restitution) const {
-    constexpr double eps = 1e-15;
-    if (restitution == 1) return 0;
-    return std::max(Oracle::creepSpeed, eps * (std::abs(va) + std::abs(vb)));
-}
-
 /// Whether the rebound, pressed together as the pair is, does not rise above rounding.
-bool TrackModel::comesToRest(const Meeting& meeting, double restitution) const {
+bool TrackModel::comesToRest(const Meeting& meeting, double restitution) {
     const double parting = meeting.approach > 0 ? restitution * meeting.approach : meeting.approach;
     return meeting.pressure > 0 && parting * parting <= 2 * meeting.pressure * meeting.rounding;
 }
 
-bool TrackModel::collides(const Meeting& meeting, double creeping) const {
-    return comesToRest(meeting, restitution_) || meeting.approach > creeping;
+bool TrackModel::collides(const Meeting& meeting) const {
+    return comesToRest(meeting, restitution_) || meeting.approach > meeting.creep;
 }
 
 /// What happens to a pair that overlaps from before `now` until `until`, or that is pressed
@@ -105,13 +105,12 @@ std::optional<Hit<double>> TrackModel::touching(std::int64_t i, std::int64_t j, 
     };
     const auto byRounding = [&](int k) { return depth(k) <= meetings[std::size_t(k)].rounding; };
     if (byRounding(0) && byRounding(1)) {
-        if (collides(meetings[0], meetings[0].creep) && collides(meetings[1], meetings[1].creep))
-            return Hit<double>{now, 3};
+        if (collides(meetings[0]) && collides(meetings[1])) return Hit<double>{now, 3};
         return std::nullopt;
     }
     const int k = depth(0) <= depth(1) ? 0 : 1;
     const Meeting& least = meetings[std::size_t(k)];
-    if (collides(least, least.creep)) return Hit<double>{now, k + 1};
+    if (collides(least)) return Hit<double>{now, k + 1};
     if (least.pressure > 0) {
         // They part, and would fall back inside each other: look again at the turning point.
         const double turn = now - least.approach / least.pressure;
@@ -153,10 +152,7 @@ std::optional<Hit<double>> TrackModel::hit(std::int64_t i, std::int64_t j, doubl
                 continue;
             }
             const int axis = x.low > y.low ? 1 : x.low < y.low ? 2 : 3;
-            if (low == now && axis < 3) {
-                const Meeting along = meet(i, j, axis - 1, now);
-                if (!collides(along, along.creep)) continue;
-            }
+            if (low == now && axis < 3 && !collides(meet(i, j, axis - 1, now))) continue;
             return Hit<double>{low, axis};
         }
     }

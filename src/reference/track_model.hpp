@@ -86,9 +86,8 @@ class TrackModel {
     Body& moving(std::int64_t id) { return moving_[std::size_t(id)]; }
 
     Meeting meet(std::int64_t i, std::int64_t j, int k, double now) const;
-    double creep(double va, double vb, double restitution) const;
-    bool comesToRest(const Meeting& meeting, double restitution) const;
-    bool collides(const Meeting& meeting, double creeping) const;
+    static bool comesToRest(const Meeting& meeting, double restitution);
+    bool collides(const Meeting& meeting) const;
     bool isJammed(std::int64_t i, std::int64_t j, int axis, bool deep, double now);
     bool separatedAlready(std::int64_t i, std::int64_t j, double now);
     bool holds(std::int64_t i, int k, double direction) const;

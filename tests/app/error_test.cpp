@@ -89,15 +89,15 @@ TEST_F(Error, DoesNotEnterTheTimeOfAFrame) {
 TEST_F(Error, CountsMissedPairsOfEveryPartitioner) {
     for (const char* name : {"brute-force", "static-grid", "quadtree", "semi-static-quadtree"}) {
         SCOPED_TRACE(name);
-        const Json s = summaryOf(
-            {"--scene", "imbalanced-clear", "--frames", "8", "--error", "--partitioner", name});
+        const Json s = summaryOf({"--scene", "imbalanced-clear", "--entities", "400", "--frames",
+                                  "8", "--error", "--partitioner", name});
         EXPECT_EQ(s["missed_pairs"], 0);
         EXPECT_EQ(s["missed_pairs_frames"], 8);
         EXPECT_EQ(s["error"]["broad_phase_recall"], 1);
         EXPECT_GT(s["error"]["overlapping_pairs"], 100);
     }
-    const Json stale = summaryOf({"--scene", "imbalanced-clear", "--law", "impulse", "--frames",
-                                  "8", "--error", "--rebuild", "every:10"});
+    const Json stale = summaryOf({"--scene", "imbalanced-clear", "--entities", "400", "--law",
+                                  "impulse", "--frames", "8", "--error", "--rebuild", "every:10"});
     EXPECT_GT(stale["missed_pairs"], 0);
     EXPECT_LT(stale["error"]["broad_phase_recall"], 1);
 }

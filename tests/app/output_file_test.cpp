@@ -249,9 +249,10 @@ TEST_F(OutputFiles, ThatDoNotFitAreAnError) {
     }
     for (const std::string& option : outputOptions) {
         write("old", "old");
-        Process shell("/bin/sh", Arguments{"-c", "ulimit -f 4; exec \"$@\"", "sh",
-                                           QUADRILLE_PROGRAM, "--headless", "--scene", "imbalanced",
-                                           "--frames", "200", option, file("old")});
+        Process shell("/bin/sh",
+                      Arguments{"-c", "ulimit -f 4; exec \"$@\"", "sh", QUADRILLE_PROGRAM,
+                                "--headless", "--scene", "pile", "--entities", "300", "--frames",
+                                "200", option, file("old")});
         const ProcessResult result = shell.finish();
         // The summary is shorter than the limit.
         EXPECT_EQ(result.exitCode, option == "--json" ? 0 : 1) << option << result.err;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "sanitized.hpp"
 
 namespace quadrille {
 namespace {
@@ -23,6 +24,9 @@ class Signal : public ProgramTest, public testing::WithParamInterface<int> {};
 Arguments endlessRun(const Arguments& outputs) {
     return Arguments{"--headless", "--scene", "imbalanced", "--report-every", "0.05"} + outputs;
 }
+
+/// So that a run ends by itself, but not at once.
+constexpr int fewFrames = sanitized ? 60 : 300;
 
 TEST_P(Signal, EndsTheRunAndWritesWhatWasAskedFor) {
     Process process(QUADRILLE_PROGRAM,
@@ -74,13 +78,14 @@ TEST_P(Signal, IsHeededWhileDataGoesToStdout) {
 TEST_P(Signal, StaysIgnoredIfItWas) {
     const std::string number = std::to_string(GetParam());
     Process process(
-        "/bin/sh", Arguments{"-c", "trap '' " + number + "; exec \"$@\"", "sh", QUADRILLE_PROGRAM} +
-                       endlessRun({"--json", file("run.json"), "--frames", "300"}));
+        "/bin/sh",
+        Arguments{"-c", "trap '' " + number + "; exec \"$@\"", "sh", QUADRILLE_PROGRAM} +
+            endlessRun({"--json", file("run.json"), "--frames", std::to_string(fewFrames)}));
     ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
     process.sendSignal(GetParam());
     EXPECT_EQ(process.finish().exitCode, 0);
     const Json summary = parseJson(contentOf(path("run.json")));
-    EXPECT_EQ(summary["frames"], 300);
+    EXPECT_EQ(summary["frames"], fewFrames);
     EXPECT_EQ(summary["interrupted"], false);
 }
 
@@ -195,8 +200,9 @@ TEST_F(LongRun, EndsAtOnceAtTheSecondSignal) {
     ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
     const int reader = open(file("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(reader, 0);
-    Process process(QUADRILLE_PROGRAM, endlessRun({"--csv", file("pipe"), "--json", file("json"),
-                                                   "--dump-state", file("state")}));
+    Process process(QUADRILLE_PROGRAM,
+                    {"--headless", "--scene", "pile", "--entities", "20", "--csv", file("pipe"),
+                     "--json", file("json"), "--dump-state", file("state")});
     ASSERT_TRUE(process.waitUntil([&] {
         int bytes = 0;
         return ioctl(reader, FIONREAD, &bytes) == 0 && bytes >= 1 << 16;
@@ -220,14 +226,14 @@ TEST_F(LongRun, EndsWhenNobodyReadsItsWords) {
 
 /// Where that signal is ignored, the words that are lost are a failure, and the results are whole.
 TEST_F(LongRun, SaysThatItsWordsWereLost) {
-    Process process("/bin/sh",
-                    Arguments{"-c", "trap '' PIPE; exec \"$@\"", "sh", QUADRILLE_PROGRAM} +
-                        endlessRun({"--json", file("json"), "--frames", "300"}));
+    Process process(
+        "/bin/sh", Arguments{"-c", "trap '' PIPE; exec \"$@\"", "sh", QUADRILLE_PROGRAM} +
+                       endlessRun({"--json", file("json"), "--frames", std::to_string(fewFrames)}));
     process.closeOut();
     const ProcessResult result = process.finish();
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_TRUE(contains(result.err, "stdout: cannot be written")) << result.err;
-    EXPECT_EQ(parseJson(contentOf(path("json")))["frames"], 300);
+    EXPECT_EQ(parseJson(contentOf(path("json")))["frames"], fewFrames);
 }
 
 /// Nothing can be done about this one; what it leaves says what it is.

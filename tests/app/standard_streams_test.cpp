@@ -26,11 +26,11 @@ TEST_F(StandardStreams, ThatAreClosedAreNotTakenForAFile) {
          {"<&-", ">&-", "2>&-", "<&- >&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
         SCOPED_TRACE(closed);
         const ProcessResult result = redirected(
-            closed, {"--headless",     "--scene",     "imbalanced",    "--frames",     "50",
-                     "--report-every", "0.001",       "--law",         "continuous",   "--resolver",
-                     "cuda",           "--json",      file("json"),    "--csv",        file("csv"),
-                     "--dump-state",   file("state"), "--dump-events", file("events"), "--save",
-                     file("snapshot")});
+            closed, {"--headless",   "--scene",    "pile",           "--entities",  "100",
+                     "--frames",     "50",         "--report-every", "0.001",       "--law",
+                     "continuous",   "--resolver", "cuda",           "--json",      file("json"),
+                     "--csv",        file("csv"),  "--dump-state",   file("state"), "--dump-events",
+                     file("events"), "--save",     file("snapshot")});
         EXPECT_EQ(result.exitCode, 0) << result.err;
         const Json summary = parseJson(contentOf(path("json")));
         ASSERT_TRUE(summary.is_object());

@@ -31,6 +31,8 @@
 #include <quadrille/snapshot.hpp>
 #include <quadrille/state_hash.hpp>
 
+#include "pinned_hashes.hpp"
+
 namespace {
 
 using namespace quadrille;
@@ -63,29 +65,20 @@ SimulationConfig configOf(Law law, Precision precision, ResolverKind resolver,
             .step = step};
 }
 
-std::vector<Case> pinnedHashes(const fs::path& source, const std::vector<ResolverKind>& chosen) {
-    std::ifstream file(source / "tests/data/pinned_hashes.csv");
-    std::string line;
-    std::getline(file, line);
+std::vector<Case> runs(const fs::path& source, const std::vector<ResolverKind>& chosen) {
     std::vector<Case> cases;
-    while (std::getline(file, line)) {
-        std::istringstream fields(line);
-        std::string scene, frames, lawName, precisionName, expected;
-        for (std::string* field : {&scene, &frames, &lawName, &precisionName, &expected}) {
-            std::getline(fields, *field, ',');
-        }
-        const Law law = find(laws(), lawName).value();
-        const Precision precision = find(precisions(), precisionName).value();
-        const auto steps = static_cast<std::uint64_t>(std::stoul(frames));
+    for (const PinnedHash& p : pinnedHashes(source / "tests/data/pinned_hashes.csv")) {
         for (const ResolverKind resolver : chosen) {
-            if (law == Law::Baseline && resolver != ResolverKind::Sequential) continue;
-            cases.push_back({line + ", " + std::string(name(resolver)), [=] {
-                                 Scene start = loadScene(source / "scenes" / (scene + ".toml"));
+            if (p.law == Law::Baseline && resolver != ResolverKind::Sequential) continue;
+            std::ostringstream what;
+            what << p << ", " << name(resolver);
+            cases.push_back({what.str(), [=] {
+                                 Scene start = loadScene(source / "scenes" / (p.scene + ".toml"));
                                  Simulation sim(std::move(start.world),
-                                                configOf(law, precision, resolver, start.step));
-                                 sim.run(steps);
+                                                configOf(p.law, p.precision, resolver, start.step));
+                                 sim.run(p.frames);
                                  const std::string hash = hashOf(sim.world());
-                                 if (hash != expected) throw std::runtime_error("ends in " + hash);
+                                 if (hash != p.hash) throw std::runtime_error("ends in " + hash);
                              }});
         }
     }
@@ -157,7 +150,7 @@ int run(int argc, char** argv) {
         chosen.push_back(*kind);
     }
     if (chosen.empty()) chosen = {ResolverKind::Sequential, ResolverKind::Threads};
-    const auto hashes = pinnedHashes(argv[1], chosen);
+    const auto hashes = runs(argv[1], chosen);
     const auto snapshots = storedSnapshots(argv[1]);
     if (hashes.empty() || snapshots.empty()) throw std::invalid_argument("nothing to compare with");
     const int different = check(hashes) + check(snapshots);

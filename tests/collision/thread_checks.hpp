@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -7,9 +8,17 @@
 #include <quadrille/simulation.hpp>
 #include <quadrille/world.hpp>
 
+#include "sanitized.hpp"
+
 namespace quadrille {
 
 inline const std::vector<int> threadCounts = {1, 2, 3, 7, 16};
+
+/// All of them; under a sanitizer one, another for each case.
+inline std::vector<int> threadCountsOf(std::size_t number) {
+    if (!sanitized) return threadCounts;
+    return {threadCounts[number % threadCounts.size()]};
+}
 
 /// One of each kind that misses no pair, and some with other parameters.
 inline const std::vector<PartitionerConfig> completePartitioners = {

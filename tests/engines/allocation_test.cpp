@@ -11,6 +11,7 @@
 #include <quadrille/names.hpp>
 
 #include "collision/support.hpp"
+#include "sanitized.hpp"
 
 namespace {
 
@@ -114,6 +115,7 @@ TEST_P(Allocation, NoneWithAListener) {
 }
 
 TEST_P(Allocation, NoneWithThreads) {
+    if (sanitized) GTEST_SKIP() << "takes long, and counts what any build does";
     // Enough bodies for loops to be shared out, and crowded, so that contacts are as well.
     Scene scene = shippedScene("demo13k", 9000);
     Simulation sim(std::move(scene.world), {.partitioner = Quadtree{},

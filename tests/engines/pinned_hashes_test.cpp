@@ -11,12 +11,12 @@
 // bit that all ways share, in a rule or by a compiler's option, shows only here. Whoever changes
 // the physics on purpose writes new numbers, and says so in the changelog.
 
+#include "pinned_hashes.hpp"
+
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <iomanip>
-#include <ostream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -30,43 +30,14 @@
 namespace quadrille {
 namespace {
 
-struct Pinned {
-    std::string scene;
-    std::uint64_t frames;
-    Law law;
-    Precision precision;
-    std::string hash;
-};
-
-std::ostream& operator<<(std::ostream& out, const Pinned& p) {
-    return out << p.scene << ", " << p.frames << " frames, " << name(p.law) << ", "
-               << name(p.precision);
+std::vector<PinnedHash> pinned() {
+    return pinnedHashes(QUADRILLE_TEST_DATA_DIR "/pinned_hashes.csv");
 }
 
-std::vector<Pinned> pinned() {
-    std::ifstream file(QUADRILLE_TEST_DATA_DIR "/pinned_hashes.csv");
-    std::string line;
-    std::getline(file, line);
-    std::vector<Pinned> result;
-    while (std::getline(file, line)) {
-        std::istringstream fields(line);
-        std::string scene, frames, law, precision, hash;
-        for (std::string* field : {&scene, &frames, &law, &precision, &hash}) {
-            std::getline(fields, *field, ',');
-        }
-        result.push_back({.scene = scene,
-                          .frames = std::stoull(frames),
-                          .law = find(laws(), law).value(),
-                          .precision = find(precisions(), precision).value(),
-                          .hash = hash});
-    }
-    return result;
-}
-
-class PinnedHashes : public testing::TestWithParam<Pinned> {};
+class PinnedHashes : public testing::TestWithParam<PinnedHash> {};
 
 TEST_P(PinnedHashes, AreThoseOfTheProgramBefore) {
-    const Pinned& p = GetParam();
+    const PinnedHash& p = GetParam();
     Scene scene = shippedScene(p.scene);
     Simulation sim(std::move(scene.world), {.partitioner = SemiStaticQuadtree{},
                                             .law = p.law,
@@ -84,7 +55,7 @@ TEST(PinnedHashesFile, HasEveryLawInEachPrecision) {
         for (const auto& precision : precisions()) {
             const auto rows = pinned();
             EXPECT_TRUE(std::ranges::any_of(rows,
-                                            [&](const Pinned& p) {
+                                            [&](const PinnedHash& p) {
                                                 return p.law == law.kind &&
                                                        p.precision == precision.kind;
                                             }))
@@ -94,7 +65,7 @@ TEST(PinnedHashesFile, HasEveryLawInEachPrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PinnedHashes, testing::ValuesIn(pinned()), [](const auto& test) {
-    const Pinned& p = test.param;
+    const PinnedHash& p = test.param;
     std::string text =
         p.scene + '_' + std::string(name(p.law)) + '_' + std::string(name(p.precision));
     std::erase(text, '-');

@@ -43,6 +43,7 @@ TEST(Thresholds, NoneSharesOutEvenEmptyLoops) {
     const ThreadTeam team(2, none);
     for (const auto named : items) EXPECT_EQ(team.workersFor(0, named), team.size());
     EXPECT_EQ(none.graphThreads, 0u);
+    EXPECT_EQ(none.heapThreads, 0u);
     EXPECT_EQ(none.treePart, 1u);
     EXPECT_EQ(none.eventQuarters, 4u) << "a worker may have all events";
     EXPECT_EQ(none.longestPause, 0u) << "a way that was not worth it is tried again at once";

@@ -95,6 +95,17 @@ TEST(Gravity, WhatFallsOnAStackAtRestReboundsAsFromTheGround) {
     EXPECT_EQ(oracle.choices().pushed, 1u);
 }
 
+TEST(Gravity, WhatRestsIsNotHeldAgainstAPushFromBelow) {
+    // A box over the edge of a table; another comes up past the table and hits it at 30 px/s.
+    const Box table{.position = {0, -0.5}, .size = {10, 1}, .isStatic = true};
+    Oracle oracle({table, {.position = {5, 0.5}}, {.position = {5.8, -4}, .velocity = {0, 40}}},
+                  down, 0.5);
+    oracle.runUntil(0.1 + 1e-6);
+    EXPECT_NEAR(oracle.state()[1].velocity.y(), 22.5, 1e-3);
+    EXPECT_NEAR(oracle.state()[2].velocity.y(), 7.5, 1e-3);
+    EXPECT_EQ(oracle.choices().pushed, 0u);
+}
+
 TEST(Restitution, BoxesThatTouchAndMoveTogetherCollideAsOne) {
     // Masses 1 and 3 behind each other at 2 px/s, against one of mass 4 that stands.
     const std::vector<Box> boxes{{.position = {-4, 0}, .velocity = {2, 0}},

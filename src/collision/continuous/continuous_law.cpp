@@ -48,7 +48,10 @@ ContinuousLaw<Real, Path>::ContinuousLaw(const StepSettings& settings, const Thr
       restitution_(settings.restitution),
       candidates_(team),
       found_(team.size()) {
-    if (team.size() > 1) shared_ = std::make_unique<SharedEvents<Real, Path>>(team);
+    const bool heaps = falls || restitution_ < 1;
+    if (team.size() > 1 && (!heaps || team.threads() >= team.thresholds().heapThreads)) {
+        shared_ = std::make_unique<SharedEvents<Real, Path>>(team);
+    }
 }
 
 template <class Real, class Path>
@@ -277,18 +280,16 @@ double ContinuousLaw<Real, Path>::areaOf(std::size_t rows, double life) const {
 /// and the more pairs it shows. `rest` is what is left of the step. The result does not depend on
 /// the choice.
 template <class Real, class Path>
-double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double now, double rest) const {
+double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double rest) const {
     constexpr double longest = 60;  // s
 
     const auto count = static_cast<double>(rows);
     const double size = sizeSum_ / count;
     const double gain = gainOf();
-    const double elapsed = now - partitionTime_;
-    const double eventRate = elapsed > 0 ? static_cast<double>(eventsSince_) / elapsed : 0;
     const auto costOf = [&](double life) {
         const double pairs = density_ * areaOf(rows, life);
         return (buildPrice * count + collectPrice * pairs) / life +
-               againPrice * eventRate * 4 * pairs / count;
+               againPrice * eventRate_ * 4 * pairs / count;
     };
     // From the time in which a typical body gets on by a hundredth of its size.
     const double typical = gain * speedSum_ / count;
@@ -318,7 +319,9 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     uniformMass_ = m.mass.uniform();
     place(bodies, now);
     survey(bodies);
-    life_ = chooseLife(m.size(), now, to - now);
+    const double elapsed = now - partitionTime_;
+    eventRate_ = elapsed > 0 ? static_cast<double>(eventsSince_) / elapsed : 0;
+    life_ = chooseLife(m.size(), to - now);
     const double life = life_;
     // Bounds that events break again and again are too narrow.
     outlier_ = outran_ ? std::min(4 * outlier_, 1e9) : std::max(outlier_ / 2, leastOutlier);
@@ -395,10 +398,8 @@ double ContinuousLaw<Real, Path>::runEvents(const LawBodies<Real>& bodies,
                                             const Partition<Real>& partition, double now,
                                             Step<Real>& step) {
     double to = std::min(step.to, horizon_);
-    // Threads share out the events of a stretch. Many stretches a step cost more than they bring.
-    const double stretch = shared_ ? sharedStretch() : 0;
-    // A stretch may be so short that time stands still.
-    const bool shares = now + stretch > now && stretch >= (step.to - now) / 16;
+    const double stretch = sharedStretch(now, step.to - now);
+    const bool shares = stretch > 0;
     if (shares) to = std::min(to, now + stretch);
     const Motion motion = motionOf(bodies);
     const Search search(motion, neighbours_, stamps_, sketches_);
@@ -469,11 +470,20 @@ double ContinuousLaw<Real, Path>::fastestAllowed() const {
 }
 
 /// A stretch of time in which bodies stay so close to where they are that few concern each other,
-/// s.
+/// and whose events threads share out, s; 0 if that brings nothing. `rest` is what is left of the
+/// step.
 template <class Real, class Path>
-double ContinuousLaw<Real, Path>::sharedStretch() const {
+double ContinuousLaw<Real, Path>::sharedStretch(double now, double rest) {
+    if (!shared_) return 0;
     const double size = sizeSum_ / static_cast<double>(stamps_.size());
-    return size / (6 * fastestAllowed());
+    const double stretch = size / (6 * fastestAllowed());
+    // Many stretches a step cost more than they bring, and one may be so short that time stands
+    // still.
+    if (!(now + stretch > now) || stretch < rest / 16) return 0;
+    // As many events are expected as before.
+    const auto fewest = static_cast<double>(team_.thresholds().events);
+    if (eventRate_ * std::min(stretch, rest) < fewest) return 0;
+    return shared_->isWorthATry() ? stretch : 0;
 }
 
 /// Throws Error for a body that has so many events in this step that it would hardly ever end.
@@ -516,7 +526,6 @@ void ContinuousLaw<Real, Path>::noteDensity(std::size_t rows) {
 template <class Real, class Path>
 bool ContinuousLaw<Real, Path>::runShared(const LawBodies<Real>& bodies, const Search& search,
                                           const EventWindow& window, double now, Step<Real>& step) {
-    if (!shared_) return false;
     const double way =
         islandWay<Real>(fastestAllowed(), window.to - now, window.to, farthest_, largest_, falls);
     std::vector<ContactRecord>* const records = step.keepContacts ? &records_ : nullptr;

@@ -54,12 +54,12 @@ class ContinuousLaw final : public ContactLaw<Real> {
     template <class Function>
     double sumOver(std::size_t rows, Function&& function) const;
     double areaOf(std::size_t rows, double life) const;
-    double chooseLife(std::size_t rows, double now, double rest) const;
+    double chooseLife(std::size_t rows, double rest) const;
     double largestHalf(const BodyView<Real>& bodies) const;
     void noteDensity(std::size_t rows);
     std::uint64_t eventsWorthTheLife(std::size_t rows) const;
     void requireProgress(const BodyView<Real>& bodies, const PairEvent& event);
-    double sharedStretch() const;
+    double sharedStretch(double now, double rest);
     double gravityAlong(int axis) const { return axis == 0 ? gravityX_ : gravityY_; }
     /// A light body leaves a heavy one at up to twice the heavy one's speed.
     double gainOf() const { return uniformMass_ ? 1 : 2; }
@@ -102,6 +102,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     int editsSince_ = 0;             // partitionTime_, steps before which bodies were edited
     double density_ = 0;             // candidate pairs a px^2 around a body
     std::uint64_t eventsSince_ = 0;  // partitionTime_
+    double eventRate_ = 0;           // events/s, while the partition before held
     std::uint64_t mostEvents_ = 0;   // after which the pairs are not worth their life
 
     ThreadsCandidatePairs<Real> candidates_;

@@ -38,7 +38,8 @@ class EventIslands {
     bool split(const BodyView<Real>& bodies, const Neighbours& neighbours,
                std::span<const PairEvent> events, double way);
 
-    /// Bodies of islands, those of all workers together; which worker has them is another matter.
+    /// The bodies that a worker claimed. Those of all workers are the bodies of all islands; which
+    /// worker an island goes to is decided later.
     std::span<const std::uint32_t> claimedBy(unsigned worker) const {
         return workers_[worker].claimed;
     }

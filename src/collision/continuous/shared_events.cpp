@@ -6,14 +6,17 @@
 namespace quadrille {
 
 template <class Real, class Path>
+bool SharedEvents<Real, Path>::isWorthATry() {
+    if (waiting_ == 0) return true;
+    --waiting_;
+    return false;
+}
+
+template <class Real, class Path>
 bool SharedEvents<Real, Path>::run(const BodyView<Real>& bodies, const Search& search,
                                    EventLoopState& whole, const EventWindow& window, double way,
                                    std::vector<ContactRecord>* records, ResolveCounts& counts) {
     if (team_.workersFor(whole.queue.dueCount(), &Thresholds::events) == 1) return false;
-    if (waiting_ > 0) {
-        --waiting_;
-        return false;
-    }
     if (!tryRun(bodies, search, whole, window, way, records != nullptr)) {
         // Most scenes stay as dense as they are.
         pause_ = std::min(std::max(2 * pause_, 1u), team_.thresholds().longestPause);
@@ -147,9 +150,12 @@ void SharedEvents<Real, Path>::undo(const Search& search, EventLoopState& whole)
         for (const Before& before : share.before) {
             if (search.stamp(before.row) == before.stamp) continue;
             m.anchors[before.row] = before.anchor;
-            m.vx[before.row] = before.anchor.vx;
-            m.vy[before.row] = before.anchor.vy;
-            if constexpr (Path::falls) m.rests[before.row] = before.rests;
+            if constexpr (Path::falls) {
+                m.rests[before.row] = before.rests;
+            } else {
+                m.vx[before.row] = before.anchor.vx;
+                m.vy[before.row] = before.anchor.vy;
+            }
             search.restore(before.row, before.stamp);
         }
     }

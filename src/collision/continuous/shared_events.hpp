@@ -33,6 +33,9 @@ class SharedEvents {
     explicit SharedEvents(const ThreadTeam& team)
         : team_(team), islands_(team), shares_(team.size()) {}
 
+    /// Whether to try again by now, after tries that did not work out.
+    bool isWorthATry();
+
     /// Carries out the events of `whole` until the end of the window, if that is worth it and works
     /// out; returns whether it did, and has changed nothing if not. Two bodies meet in the window
     /// only if along both axes they are less than their size and `way`, in px, apart when it
@@ -87,7 +90,7 @@ class SharedEvents {
     std::vector<Share> shares_;
     std::vector<PairEvent> due_;
     std::vector<Recorded> records_;
-    unsigned pause_ = 0;    // steps to do without after a split that did not work out,
+    unsigned pause_ = 0;    // tries to do without after a split that did not work out,
     unsigned waiting_ = 0;  // and what is left of them
 };
 

@@ -35,10 +35,11 @@ class PartitionerTest : public testing::Test {
   protected:
     /// Compares what the narrow phase finds through the partition with all against all, for each
     /// kind of scene; `most` bodies in a scene.
-    void expectCompleteAndWellFormed(const PartitionerConfig& config, int cases, int most) {
+    void expectCompleteAndWellFormed(const PartitionerConfig& config, std::uint64_t cases,
+                                     int most) {
         for (const SceneKind kind : sceneKinds) {
-            for (int k = 0; k < cases; ++k) {
-                const auto seed = static_cast<std::uint64_t>(1000 * cases + k);
+            const std::uint64_t first = 1000 * cases;
+            for (std::uint64_t seed = first; seed < first + scenesOf(cases); ++seed) {
                 SCOPED_TRACE(std::string(name(kind)) + ", seed " + std::to_string(seed) +
                              ", bodies " + std::to_string(most));
                 World world = randomScene(kind, seed, most);
@@ -83,7 +84,7 @@ TYPED_TEST(PartitionerTest, QuadtreeIsCompleteAndUnique) {
             SCOPED_TRACE("depth " + std::to_string(depth) + ", per cell " + std::to_string(most));
             // Deep trees cut the edges of large boxes into very many cells.
             const bool large = most < 20 && depth >= 10;
-            const int cases = !large ? 10 : depth == 10 ? 5 : 2;
+            const std::uint64_t cases = !large ? 10 : depth == 10 ? 5 : 2;
             const int bodies = depth < 10 ? 100 : !large ? 50 : depth == 10 ? 16 : 5;
             this->expectCompleteAndWellFormed(Quadtree{depth, most}, cases, bodies);
         }

@@ -16,6 +16,7 @@
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
 #include "collision/thread_checks.hpp"
+#include "sanitized.hpp"
 
 namespace quadrille {
 namespace {
@@ -37,6 +38,7 @@ TEST_P(Threads, RandomScenes) {
     for (const SceneKind kind : sceneKinds) {
         for (std::uint64_t seed = 100; seed < 102; ++seed) {
             for (std::size_t i = 0; i < partitioners.size(); ++i) {
+                if (sanitized && (i + seed) % 3 != std::size_t(kind) % 3) continue;
                 SCOPED_TRACE(std::string(name(kind)) + ", seed " + std::to_string(seed) +
                              ", partitioner " + std::to_string(i));
                 expectTheSameOnThreads([&] { return randomScene(kind, seed, 120, 200); },
@@ -59,7 +61,7 @@ TEST_P(Threads, TreesThatAreSplitOnAllThreads) {
             World w({.size = {400, 300}, .seed = seed});
             Random& random = w.random();
             for (int i = 0; i < 6000; ++i) {
-                const bool crowded = i % 3 == 0;
+                const bool crowded = i % (sanitized ? 12 : 3) == 0;
                 const Vec2 position =
                     crowded ? Vec2(random.uniform(60, 63), random.uniform(50, 70))
                             : Vec2(random.uniform(-200, 200), random.uniform(-150, 150));
@@ -103,7 +105,7 @@ TEST_P(ShippedScenes, EveryPartitionerAndNumberOfThreads) {
                                 .law = Law::Impulse,
                                 .precision = precision,
                                 .step = step},
-                               12, threadCounts);
+                               12, threadCountsOf(i + 1));
         if (HasFailure()) return;
     }
 }
