@@ -41,7 +41,7 @@ class ResidentPipeline {
     /// were loaded. Throws DeviceError, and has then written nothing.
     virtual void fetch(const LawBodies<Real>& bodies) = 0;
 
-    /// Of the last step. Throws DeviceError.
+    /// Of the last partition. Throws DeviceError.
     virtual const Cells& cells() = 0;
     /// Of the last step, if it was to keep them.
     virtual std::span<const ContactRecord> contacts() = 0;

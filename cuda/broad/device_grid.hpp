@@ -35,6 +35,8 @@ class DeviceGrid {
     /// Makes room for so many, and puts the bodies into the cells. Throws Error if 32 bits cannot
     /// count them.
     void sortAgain(std::uint32_t entries);
+    /// Makes room for so many, for the next sort.
+    void makeRoom(std::size_t entries);
     /// What the step has told is the guess for the next one.
     void expect(std::uint32_t entries);
 
@@ -49,7 +51,6 @@ class DeviceGrid {
 
   private:
     GridInput<Real> input() const;
-    void makeRoom(std::size_t entries);
     void place();
 
     DeviceSession& device_;

@@ -8,8 +8,8 @@ namespace quadrille::cuda {
 
 namespace {
 
-/// Raises a number that stands for a double >= 0, for all threads of a block; they all must come.
-__device__ void raiseFromBlock(unsigned long long* highest, double value) {
+/// Raises a number that stands for a double >= 0, for all threads of a warp; they all must come.
+__device__ void raiseFromWarp(unsigned long long* highest, double value) {
     auto bits = static_cast<unsigned long long>(__double_as_longlong(value));
     for (unsigned apart = 16; apart > 0; apart /= 2) {
         const unsigned long long other = __shfl_down_sync(0xffff'ffffu, bits, apart);
@@ -34,8 +34,8 @@ __global__ void __launch_bounds__(largestBlock)
         farthest = fmax(farthest, fmax(fabs(double(m.x[row])), fabs(double(m.y[row]))));
     }
     __syncwarp();
-    raiseFromBlock(&survey->fastest, fastest);
-    raiseFromBlock(&survey->farthest, farthest);
+    raiseFromWarp(&survey->fastest, fastest);
+    raiseFromWarp(&survey->farthest, farthest);
 }
 
 template <class Real>

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "cuda/continuous/event_window.hpp"
+#include "cuda/continuous/device_window.hpp"
 #include "cuda/device/launch.hpp"
 
 /// What happens to the bodies for as long as a partition lasts.

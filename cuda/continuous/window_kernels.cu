@@ -61,16 +61,6 @@ __device__ bool near(const EventBodies<Real>& bodies, const PathSketch& own, std
                   sketchSize(bodies.motion, other.row), span);
 }
 
-/// A body goes on as it did before.
-template <class Real>
-__device__ void takeBack(const EventBodies<Real>& bodies, std::uint32_t row,
-                         const Anchor<Real>& before) {
-    const auto& m = bodies.motion.bodies.moving;
-    m.anchors[row] = before;
-    m.vx[row] = before.vx;
-    m.vy[row] = before.vy;
-}
-
 /// A body's path is another one for those that come after.
 template <class Real>
 __device__ void noteChange(const EventBodies<Real>& bodies, const Window& window,
@@ -105,6 +95,8 @@ __device__ bool markedAlready(const EventBodies<Real>& bodies, const Window& win
     return false;
 }
 
+/// Which of the listed pairs meet in the window, and marks their bodies; unless the partition is
+/// not what it should be.
 template <class Real>
 __global__ void __launch_bounds__(largestBlock)
     gatherKernel(EventBodies<Real> bodies, Window window) {
@@ -166,7 +158,7 @@ __device__ Fate tryAlone(const EventBodies<Real>& bodies, const Window& window, 
         collide(bodies.motion, event, contact, [](int, double) { return 0.0; });
     if (!done.changes()) return Fate::Nothing;
     if (bodies.records != nullptr) bodies.recordOf[i] = makeRecord(event, contact, done);
-    return done.collided() != 0 ? Fate::Collision : Fate::Change;
+    return Fate::Collision;
 }
 
 /// Whether a body of an event that was carried out is near one that has another event, or meets
@@ -183,10 +175,10 @@ __device__ bool concerns(const EventBodies<Real>& bodies, const Window& window, 
     bool meets = outruns(motion, row, event.time, bodies.horizon, SpeedBounds{bodies.bound});
     forNeighbours(bodies, tile, row, [&](const Neighbour& other) {
         if (!other.there) return;
-        if (!other.body.isStatic() && other.row != partner &&
-            bodies.marks[other.row].window == window.number &&
-            near(bodies, before, row, other, close)) {
-            meets = true;
+        const bool marked = !other.body.isStatic() && other.row != partner &&
+                            bodies.marks[other.row].window == window.number;
+        if (marked) {
+            meets = meets || near(bodies, before, row, other, close);
         } else if (other.body.isStatic() || near(bodies, after, row, other, rest)) {
             const BodyRef one[1] = {other.body};
             findFor(motion, row, one, event.time, window.to,
@@ -229,8 +221,8 @@ __global__ void __launch_bounds__(tilesBlock, 4)
                 concerned = concerns(bodies, window, tile, event, row, side == 0 ? b : event.a);
             }
             if (concerned && tile.thread_rank() == 0) {
-                takeBack(bodies, event.a, bodies.anchorsOf[2 * std::size_t(i)]);
-                if (b != none) takeBack(bodies, b, bodies.anchorsOf[2 * std::size_t(i) + 1]);
+                bodies.motion.takeBack(event.a, bodies.anchorsOf[2 * std::size_t(i)]);
+                if (b != none) bodies.motion.takeBack(b, bodies.anchorsOf[2 * std::size_t(i) + 1]);
             }
         }
         if (!concerned || tile.thread_rank() != 0) continue;
@@ -333,7 +325,7 @@ class Flood {
 
 template <class Real>
 __global__ void __launch_bounds__(warpsBlock) floodKernel(EventBodies<Real> bodies, Window window) {
-    if (troubled(bodies.counts)) return;
+    if (__any_sync(0xffff'ffffu, troubled(bodies.counts))) return;
     __shared__ std::uint32_t rows[warpsOfBlock][Flood<Real>::room];
     const auto warp = groups::tiled_partition<32>(groups::this_thread_block());
     const std::uint32_t own = threadIdx.x / 32;
@@ -349,7 +341,7 @@ __global__ void __launch_bounds__(warpsBlock) floodKernel(EventBodies<Real> bodi
 template <class Real>
 __global__ void __launch_bounds__(largestBlock)
     groupKernel(EventBodies<Real> bodies, Window window) {
-    if (troubled(bodies.counts)) return;
+    if (__syncthreads_or(troubled(bodies.counts))) return;
     const std::uint32_t claimed = bodies.counts->claimed.value;
     for (std::uint32_t i = threadNumber(); i < claimed; i += threadCount()) {
         const std::uint32_t row = bodies.claimed[i];
@@ -357,9 +349,9 @@ __global__ void __launch_bounds__(largestBlock)
             // What it has done alone, it does again in the island.
             const std::uint32_t event = bodies.eventOf[row];
             const Fate fate = bodies.fates[event];
-            if (fate == Fate::Change || fate == Fate::Collision) {
+            if (fate == Fate::Collision) {
                 const bool second = bodies.events[event].a != row;
-                takeBack(bodies, row, bodies.anchorsOf[2 * std::size_t(event) + second]);
+                bodies.motion.takeBack(row, bodies.anchorsOf[2 * std::size_t(event) + second]);
             }
         }
         bodies.before[i] = bodies.motion.bodies.moving.anchors[row];
@@ -368,7 +360,6 @@ __global__ void __launch_bounds__(largestBlock)
         *static_cast<volatile std::uint32_t*>(bodies.parents + row) = root;
     }
     const std::uint32_t events = bodies.counts->events.value;
-    unsigned long long happened = 0;
     unsigned long long collisions = 0;
     for (std::uint32_t i = threadNumber(); i < events; i += threadCount()) {
         const PairEvent event = bodies.events[i];
@@ -379,17 +370,13 @@ __global__ void __launch_bounds__(largestBlock)
             if (next == none) bodies.roots[countUp(&bodies.counts->islands.value)] = root;
             continue;
         }
-        ++happened;
-        const Fate fate = bodies.fates[i];
-        if (fate == Fate::Nothing) continue;
+        if (bodies.fates[i] == Fate::Nothing) continue;
         noteChange(bodies, window, event.a);
         if (!event.withStatic()) noteChange(bodies, window, event.b.row());
-        if (fate != Fate::Collision) continue;
         ++collisions;
         if (bodies.records != nullptr) keep(bodies, {event, 0, bodies.recordOf[i]});
     }
     __syncthreads();
-    addFromBlock(&bodies.counts->happened, happened);
     addFromBlock(&bodies.counts->collisions, collisions);
 }
 
@@ -436,8 +423,9 @@ class Island {
             if (!isCurrent(event)) continue;
             int state = 0;
             if (leads()) {
-                if (++happened > mostEvents) fail(trouble::crowded);
-                state = resolve(event) | failed_ << 1;
+                if (++events_ > mostEvents) fail(trouble::crowded);
+                const bool changes = resolve(event);
+                state = changes | failed_ << 1;
             }
             warp_.sync();
             state = warp_.shfl(state, 0);
@@ -450,11 +438,13 @@ class Island {
         }
     }
 
-    std::uint32_t happened = 0, collisions = 0;  // of the thread that leads
+    std::uint32_t collisions = 0;  // of the thread that leads
 
   private:
-    /// So few that no body can be jammed (collision/continuous/bursts.hpp).
+    /// So few that no body can be jammed (collision/continuous/bursts.hpp): a window is longer than
+    /// an eighth of the long cells of time, and a short one may lie in two windows.
     static constexpr std::uint32_t mostEvents = 64;
+    static constexpr std::uint32_t mostOverlaps = 32;
 
     __device__ bool leads() const { return warp_.thread_rank() == 0; }
 
@@ -524,7 +514,10 @@ class Island {
     /// Returns whether any path changed.
     __device__ bool resolve(const PairEvent& event) {
         const EventContact contact = contactOf(motion_, event);
-        if (contact.deep && separatedAlready(event)) return false;
+        if (contact.deep) {
+            if (separatedAlready(event)) return false;
+            if (++overlaps_ > mostOverlaps) fail(trouble::crowded);
+        }
         // Nothing is pushed along where nothing is lost.
         const EventOutcomes done =
             collide(motion_, event, contact, [](int, double) { return 0.0; });
@@ -575,29 +568,27 @@ class Island {
     double instant_ = -1;  // s
     PairEvent after_;      // that the last contact counts as
     std::uint32_t kept_ = 0;
+    std::uint32_t events_ = 0, overlaps_ = 0;
     bool failed_ = false;
 };
 
 template <class Real>
 __global__ void __launch_bounds__(warpsBlock)
     islandsKernel(EventBodies<Real> bodies, Window window) {
-    if (troubled(bodies.counts)) return;
+    if (__syncthreads_or(troubled(bodies.counts))) return;
     __shared__ IslandQueue queues[warpsOfBlock];
     const auto warp = groups::tiled_partition<32>(groups::this_thread_block());
     const std::uint32_t own = threadIdx.x / 32;
     const std::uint32_t islands = bodies.counts->islands.value;
-    unsigned long long happened = 0;
     unsigned long long collisions = 0;
     for (std::uint32_t i = blockIdx.x * warpsOfBlock + own; i < islands;
          i += gridDim.x * warpsOfBlock) {
         Island<Real> island(bodies, window, warp, bodies.roots[i], queues[own]);
         island.run();
-        happened += island.happened;
         collisions += island.collisions;
         warp.sync();
     }
     __syncthreads();
-    addFromBlock(&bodies.counts->happened, happened);
     addFromBlock(&bodies.counts->collisions, collisions);
 }
 
@@ -630,8 +621,7 @@ __device__ Changed changedAt(const EventBodies<Real>& bodies, const Window& wind
         side % 2 == 0 ? BodyRef::moving(bodies.events[event].a) : bodies.events[event].b;
     // The island has what became of it, unless it came to nothing.
     const bool alone = troubles || parentOf(bodies.parents, bodies.events[event].a) == none;
-    const bool changes =
-        (fate == Fate::Change || fate == Fate::Collision) && alone && !body.isStatic();
+    const bool changes = fate == Fate::Collision && alone && !body.isStatic();
     return {changes ? body.row() : none, side, false};
 }
 
@@ -667,8 +657,8 @@ __global__ void __launch_bounds__(tilesBlock, 4)
         const std::uint32_t row = changed.row;
         if (troubles != 0) {
             if (row != none && rank == 0) {
-                takeBack(bodies, row,
-                         (changed.ofIsland ? bodies.before : bodies.anchorsOf)[changed.slot]);
+                bodies.motion.takeBack(
+                    row, (changed.ofIsland ? bodies.before : bodies.anchorsOf)[changed.slot]);
                 bodies.sketches[row] = sketchOf(bodies.motion, row, bodies.lists.from);
             }
             continue;
@@ -707,7 +697,6 @@ __global__ void __launch_bounds__(largestBlock)
                    .concerned = bodies.counts->concerned.value,
                    .claimed = bodies.counts->claimed.value,
                    .records = bodies.counts->records.value,
-                   .happened = bodies.counts->happened,
                    .collisions = bodies.counts->collisions,
                    .gridEntries = *bodies.gridEntries,
                    .badRow = *bodies.badRow,
@@ -723,20 +712,16 @@ template <class Real>
 void runWindow(const Launch& launch, const EventBodies<Real>& bodies, const Window& window,
                const WindowExpectation& expected, WindowResult* result) {
     const int size = launch.options.blockSize;
-    const auto blocks = [&](std::uint32_t items, int ofBlock, int blockSize) {
-        const unsigned most = launch.multiprocessors * (2048u / static_cast<unsigned>(blockSize));
-        return std::min(most, blocksFor(items, ofBlock));
-    };
     gatherKernel<<<blocksToFill(launch, expected.entries), size, 0, launch.stream>>>(bodies,
                                                                                      window);
     checkLaunch("gatherKernel");
-    tryKernel<<<blocks(expected.events, eventsBlock, eventsBlock), eventsBlock, 0, launch.stream>>>(
-        bodies, window);
+    tryKernel<<<blocksToFill(launch, expected.events, eventsBlock, eventsBlock), eventsBlock, 0,
+                launch.stream>>>(bodies, window);
     checkLaunch("tryKernel");
-    concernKernel<<<blocks(expected.events, tilesOfBlock, tilesBlock), tilesBlock, 0,
+    concernKernel<<<blocksToFill(launch, expected.events, tilesOfBlock, tilesBlock), tilesBlock, 0,
                     launch.stream>>>(bodies, window);
     checkLaunch("concernKernel");
-    const unsigned forWarps = blocks(expected.concerned, warpsOfBlock, warpsBlock);
+    const unsigned forWarps = blocksToFill(launch, expected.concerned, warpsOfBlock, warpsBlock);
     floodKernel<<<forWarps, warpsBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("floodKernel");
     groupKernel<<<blocksToFill(launch, std::max(expected.claimed, expected.events)), size, 0,
@@ -744,7 +729,8 @@ void runWindow(const Launch& launch, const EventBodies<Real>& bodies, const Wind
     checkLaunch("groupKernel");
     islandsKernel<<<forWarps, warpsBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("islandsKernel");
-    finishKernel<<<blocks(expected.claimed + 2 * expected.events, tilesOfBlock, tilesBlock),
+    finishKernel<<<blocksToFill(launch, expected.claimed + 2 * expected.events, tilesOfBlock,
+                                tilesBlock),
                    tilesBlock, 0, launch.stream>>>(bodies, window);
     checkLaunch("finishKernel");
     reportKernel<<<blocksToFill(launch, expected.claimed), size, 0, launch.stream>>>(bodies, window,

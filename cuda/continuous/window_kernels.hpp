@@ -2,11 +2,11 @@
 
 #include <cstdint>
 
-#include "cuda/continuous/event_window.hpp"
+#include "cuda/continuous/device_window.hpp"
 #include "cuda/device/launch.hpp"
 
 /// The events of a window, by islands: bodies that cannot come together before it ends, whatever
-/// happens to them, do not concern each other, so each island is one thread's (as in
+/// happens to them, do not concern each other, so each island is one warp's (as in
 /// collision/continuous/event_islands.hpp).
 
 namespace quadrille::cuda {
@@ -16,7 +16,7 @@ struct WindowResult {
     std::uint32_t troubles;
     std::uint32_t entries;  ///< in the window's list
     std::uint32_t events, concerned, claimed, records;
-    unsigned long long happened, collisions;
+    unsigned long long collisions;
 
     // Of the partition:
     std::uint32_t gridEntries, badRow;

@@ -42,11 +42,17 @@ inline unsigned blocksFor(std::uint32_t items, int blockSize) {
     return std::max(1u, items / size + (items % size != 0));
 }
 
-/// Blocks for a kernel whose threads go on to further items: no more than fill the device.
+/// Blocks for a kernel whose blocks treat several items together and go on to further ones: no more
+/// than fill the device.
+inline unsigned blocksToFill(const Launch& launch, std::uint32_t items, int itemsOfBlock,
+                             int blockSize) {
+    const unsigned full = launch.multiprocessors * (2048u / static_cast<unsigned>(blockSize));
+    return std::min(full, blocksFor(items, itemsOfBlock));
+}
+
+/// The same for one in which each thread treats one item.
 inline unsigned blocksToFill(const Launch& launch, std::uint32_t items) {
-    const unsigned full =
-        launch.multiprocessors * (2048u / static_cast<unsigned>(launch.options.blockSize));
-    return std::min(full, blocksFor(items, launch.options.blockSize));
+    return blocksToFill(launch, items, launch.options.blockSize, launch.options.blockSize);
 }
 
 /// Starts a kernel whose blocks wait for each other, and so must all be there at once: as many as

@@ -118,6 +118,9 @@ bool ResidentContinuous<Real>::load(const LawBodies<Real>& bodies, double now, P
     }
     expected_ = {entryRoom_, eventRoom_, eventRoom_ / 4, claimedRoom_};
     now_ = now;
+    cells_ = {};
+    cellsHere_ = true;
+    margin_ = 0;
     lists_ = {};
     done_ = 0;
     parts_ = 1;
@@ -137,8 +140,7 @@ std::uint32_t ResidentContinuous<Real>::partsOf(double length) const {
 /// Pairs a body that a partition for so many s shows.
 template <class Real>
 double ResidentContinuous<Real>::pairsOf(double life) const {
-    const double gain = uniformMass_ ? 1 : 2;
-    const double side = 2 * (extent_ + 2 * gain * fastest_ * life);
+    const double side = 2 * (extent_ + 2 * gain() * fastest_ * life);
     return density_ * side * side / 2;
 }
 
@@ -167,10 +169,10 @@ std::uint32_t ResidentContinuous<Real>::chooseWindows(double length) const {
 template <class Real>
 bool ResidentContinuous<Real>::covers(double from, double to) const {
     if (done_ >= lists_.windows) return false;
-    constexpr double unsure = 1e-4;  // of a window; lists are sure of less (listMeeting)
     const double begins = (from - lists_.from) * lists_.perSecond;
     const double ends = (to - lists_.from) * lists_.perSecond;
-    return std::abs(begins - done_) < unsure && std::abs(ends - (done_ + 1)) < unsure;
+    return std::abs(begins - done_) < mostDifference &&
+           std::abs(ends - (done_ + 1)) < mostDifference;
 }
 
 template <class Real>
@@ -181,7 +183,7 @@ EventBodies<Real> ResidentContinuous<Real>::eventBodies(bool record) const {
             .others = others_.data(),
             .lists = lists_,
             // Times of steps are rounded.
-            .horizon = lists_.from + life * (1 + 1e-3 / lists_.windows),
+            .horizon = lists_.from + life + unsureOfEnds / lists_.perSecond,
             .bound = bound_,
             .sketches = sketches_.data(),
             .slack = slack_,
@@ -220,7 +222,12 @@ EventBodies<Real> ResidentContinuous<Real>::eventBodies(bool record) const {
 template <class Real>
 bool ResidentContinuous<Real>::partition(double now, double length, Step<Real>& step) {
     const std::uint32_t rows = bodies_.movingCount();
-    const std::uint32_t windows = chooseWindows(length);
+    // Where one window is to hold very many, few of its kind.
+    const std::size_t mostEntries =
+        std::max<std::size_t>(entries_.capacity(), 8 * std::size_t(rows));
+    const auto most = static_cast<std::uint32_t>(
+        std::clamp<std::size_t>(mostEntries / entryRoom_, 1, mostWindows));
+    const std::uint32_t windows = std::min(chooseWindows(length), most);
     const double life = windows * length;
     if (pairsOf(life) > mostPairs) return false;
     pairsExpected_ = pairsOf(life);
@@ -242,8 +249,8 @@ bool ResidentContinuous<Real>::partition(double now, double length, Step<Real>& 
               .from = now,
               .perSecond = 1 / length};
     done_ = 0;
-    bound_ = (uniformMass_ ? 1 : 2) * fastest_ * (1 + 1e-6);
-    const double until = 1.001 * life;
+    bound_ = gain() * fastest_ * (1 + 1e-6);
+    const double until = life + 2 * unsureOfEnds * length;
     const double reach =
         reachOfLife<Real>(bound_, until, farthest_ + 2 * bound_ * until, largest_, 0);
     slack_ = sketchSlack({.from = now,
@@ -331,8 +338,9 @@ bool ResidentContinuous<Real>::mend(const WindowResult& result) {
         lists_.windows = 0;
     }
     if ((result.troubles & trouble::partition) != 0) {
+        if (result.gridEntries == none) return false;  // more than 32 bits count
         if (grid_.lacksRoom(result.gridEntries)) {
-            grid_.sortAgain(result.gridEntries);
+            grid_.makeRoom(result.gridEntries + result.gridEntries / 16);
         } else {
             noteDensity(result.pairs);
         }
@@ -407,7 +415,6 @@ double ResidentContinuous<Real>::step(Step<Real>& step) {
         now_ = to;
         expected_ = {withRoom(result.entries), withRoom(result.events), withRoom(result.concerned),
                      withRoom(result.claimed)};
-        step.counts.events += result.happened;
         step.counts.contacts += result.collisions;
         step.counts.collisions += result.collisions;
         if (step.keepContacts) keepRecords(result.records);

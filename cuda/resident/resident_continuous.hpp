@@ -41,6 +41,8 @@ class ResidentContinuous final : public ResidentPipeline<Real> {
     EventBodies<Real> eventBodies(bool record) const;
     void measure(const BodyView<Real>& bodies);
 
+    /// A light body leaves a heavy one at up to twice the heavy one's speed.
+    double gain() const { return uniformMass_ ? 1 : 2; }
     std::uint32_t partsOf(double length) const;
     double pairsOf(double life) const;
     void noteDensity(std::uint64_t pairs);

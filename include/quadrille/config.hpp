@@ -25,8 +25,8 @@ struct StepSettings {
     double restitution = 1;  ///< in [0, 1]
 };
 
-/// Whether the resolver CudaResident does such steps of a law on its device. Others it leaves to
-/// the host, with the same result.
+/// Whether the resolver CudaResident does such steps of a law that runs on it on its device. Others
+/// it leaves to the host, with the same result.
 inline bool staysOnDevice(Law law, const StepSettings& step) {
     return law != Law::Continuous || (step.gravity == Vec2(0, 0) && step.restitution == 1);
 }

@@ -21,7 +21,7 @@ constexpr std::array<Named<Law>, 3> lawTable = {{
 
 constexpr std::array<Named<ResolverKind>, 5> resolverTable = {{
     {ResolverKind::Auto, "auto",
-     "a device or threads for many bodies, where there is one or more than one core"},
+     "for many bodies a device, or threads where there is more than one core"},
     {ResolverKind::Sequential, "sequential", "one core"},
     {ResolverKind::Threads, "threads", "all cores"},
     {ResolverKind::Cuda, "cuda", "contacts on a CUDA device, cells on the host"},

@@ -28,6 +28,14 @@ HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSi
                              const Thresholds& thresholds)
     : HostEngine(config, worldSize, threadsOf(config), thresholds) {}
 
+void requireWhole(const SimulationConfig& config, bool complete) {
+    if (config.law == Law::Continuous && !complete) {
+        throw NotAvailable("the law '" + std::string(name(config.law)) +
+                           "' needs a partition that misses no pair; '" +
+                           std::string(name(Law::Impulse)) + "' does not");
+    }
+}
+
 template <class Real>
 HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSize,
                              unsigned threads, const Thresholds& thresholds)
@@ -38,11 +46,12 @@ HostEngine<Real>::HostEngine(const SimulationConfig& config, const Vec2& worldSi
     if (config.countMissedPairs) {
         missedPairs_ = std::make_unique<MissedPairCounter<Real>>(config.missedPairsEvery);
     }
-    if (config.law == Law::Continuous && !partitioner_->partition().complete) {
-        throw NotAvailable("the law '" + std::string(name(config.law)) +
-                           "' needs a partition that misses no pair; '" +
-                           std::string(name(Law::Impulse)) + "' does not");
-    }
+    requireWhole(config, partitioner_->partition().complete);
+}
+
+template <class Real>
+void HostEngine<Real>::forget() {
+    law_ = makeLaw<Real>(config_, team_);
 }
 
 template <class Real>

@@ -9,6 +9,9 @@
 
 namespace quadrille {
 
+/// Throws NotAvailable if the law needs a partition that misses no pair and there is none.
+void requireWhole(const SimulationConfig& config, bool complete);
+
 /// A step on the host: the partition is made here, and the law is one of the host's threads or one
 /// that keeps a copy of the bodies on a device and resolves there.
 template <class Real>
@@ -21,6 +24,9 @@ class HostEngine final : public Engine {
                const Thresholds& thresholds);
 
     void step(BodyStore& store, StepWindow& window, StepReport& report) override;
+
+    /// For bodies that somebody else will advance: the law knows nothing of them afterwards.
+    void forget();
 
     const Cells& cells() const override { return partitioner_->partition().cells; }
     std::span<const ContactRecord> contacts() override { return law_->contacts(); }

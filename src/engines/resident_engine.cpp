@@ -26,7 +26,10 @@ template <class Real>
 ResidentEngine<Real>::ResidentEngine(const SimulationConfig& config, const Vec2& worldSize,
                                      unsigned threads, MakePipeline make)
     : config_(config), worldSize_(worldSize), team_(threads, Thresholds{}) {
-    if (!makePartitioner<Real>(config.partitioner, worldSize)->partition().complete) {
+    const bool complete =
+        makePartitioner<Real>(config.partitioner, worldSize)->partition().complete;
+    requireWhole(config, complete);
+    if (!complete) {
         throw NotAvailable("the resolver '" + std::string(name(config.resolver)) +
                            "' makes no partition that may miss pairs");
     }
@@ -79,7 +82,9 @@ void ResidentEngine<Real>::step(BodyStore& store, StepWindow& window, StepReport
 /// Has the device take over the store's bodies, if it has not got them. Returns whether it has.
 template <class Real>
 bool ResidentEngine<Real>::send(BodyStore& store, const StepWindow& window, PhaseClock& clock) {
-    const bool follows = ahead_ == 0 || window.number == lastStep_ + 1;
+    // A pipeline of a law that keeps anchors knows what time it is.
+    const bool follows =
+        (ahead_ == 0 && !pipeline_->kept().anchors) || window.number == lastStep_ + 1;
     if (std::exchange(there_, false) && revision_ == store.revision() && follows) return true;
     store.read<Real>();  // also has bodies placed that are to be placed later
     ahead_ = 0;
@@ -100,7 +105,9 @@ void ResidentEngine<Real>::stepThere(BodyStore& store, StepWindow& window, StepR
     double done = window.from;
     try {
         if (!send(store, window, clock)) return stepHere(store, window, report);
-        lastWasHere_ = false;
+        if (std::exchange(lastWasHere_, false) && host_ && pipeline_->kept().anchors) {
+            host_->forget();
+        }
         done = pipeline_->step(step);
     } catch (const DeviceError& failure) {
         lost_ = failure.what();
@@ -162,8 +169,6 @@ void ResidentEngine<Real>::goOnHere(BodyStore& store, StepWindow& window, double
 
 template <class Real>
 void ResidentEngine<Real>::stepHere(BodyStore& store, StepWindow& window, StepReport& report) {
-    // Of bodies that were elsewhere since, a law that keeps anchors knows nothing.
-    if (!lastWasHere_ && pipeline_->kept().anchors) host_.reset();
     lastWasHere_ = true;
     if (!host_) {
         host_ = std::make_unique<HostEngine<Real>>(onHost(config_), worldSize_, team_.threads(),

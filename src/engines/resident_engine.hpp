@@ -14,10 +14,10 @@
 namespace quadrille {
 
 /// A step on a device that keeps the bodies. They come to the host when somebody reads them there,
-/// and go to the device again only after an edit, or after a step that the device leaves to the
-/// host: one that somebody audits, the first of a law that keeps anchors, and what its pipeline
-/// does not do. A device that fails loses nothing: the host has
-/// the bodies as they were read last, or edited, and goes through the steps since then again.
+/// and go to the device again only after an edit, or after a step that the host did: one that
+/// somebody audits, the first of a law that keeps anchors, and what its pipeline does not do. A
+/// device that fails loses nothing: the host has the bodies as they were read last, or edited, and
+/// goes through the steps since then again.
 template <class Real>
 class ResidentEngine final : public Engine, public BodyMirror {
   public:

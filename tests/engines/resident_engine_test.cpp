@@ -383,6 +383,11 @@ TEST_F(ResidentEngineTest, StepsMayBeNumberedAnew) {
     EXPECT_EQ(stateHash(resident.world), stateHash(host.world));
 }
 
+std::unique_ptr<ResidentPipeline<double>> makeFakeExact(const SimulationConfig& config,
+                                                        const Vec2& worldSize, const ThreadTeam&) {
+    return std::make_unique<FakeExactPipeline>(config, worldSize);
+}
+
 /// Steps of an exact law that the device does in part, or not at all; with edits in between.
 TEST_F(ResidentEngineTest, TheHostGoesOnWhereTheDeviceStopped) {
     SimulationConfig config = configured();
@@ -392,12 +397,7 @@ TEST_F(ResidentEngineTest, TheHostGoesOnWhereTheDeviceStopped) {
     hosts.resolver = ResolverKind::Sequential;
     const Vec2 size = scene().config().size;
     Stepped host{makeEngine(hosts, size)};
-    Stepped resident{std::make_unique<ResidentEngine<double>>(
-        config, size, 2,
-        [](const SimulationConfig& c, const Vec2& s,
-           const ThreadTeam&) -> std::unique_ptr<ResidentPipeline<double>> {
-            return std::make_unique<FakeExactPipeline>(c, s);
-        })};
+    Stepped resident{std::make_unique<ResidentEngine<double>>(config, size, 2, makeFakeExact)};
     std::uint64_t contacts = 0;
     int left = 0;
     for (int i = 0; i < 120; ++i) {

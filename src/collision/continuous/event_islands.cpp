@@ -1,8 +1,6 @@
 #include "collision/continuous/event_islands.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "collision/pairs/cell_walk.hpp"

@@ -149,13 +149,8 @@ void SharedEvents<Real, Path>::undo(const Search& search, EventLoopState& whole)
         whole.gathering = std::max(whole.gathering, share.state.gathering);
         for (const Before& before : share.before) {
             if (search.stamp(before.row) == before.stamp) continue;
-            m.anchors[before.row] = before.anchor;
-            if constexpr (Path::falls) {
-                m.rests[before.row] = before.rests;
-            } else {
-                m.vx[before.row] = before.anchor.vx;
-                m.vy[before.row] = before.anchor.vy;
-            }
+            search.motion().takeBack(before.row, before.anchor);
+            if constexpr (Path::falls) m.rests[before.row] = before.rests;
             search.restore(before.row, before.stamp);
         }
     }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/contact_law.hpp"
@@ -19,7 +17,7 @@ namespace quadrille {
 template <class Real>
 QUADRILLE_HD inline double reachOfLife(double bound, double life, double farthest, double largest,
                                        int edits) {
-    const double eps = (8 + edits / 2) * machineEpsilon<Real>;
+    const double eps = (8 + 0.5 * edits) * machineEpsilon<Real>;
     return bound * life * (1 + 1e-6) + eps * farthest + 2 * touchTolerance * largest;
 }
 

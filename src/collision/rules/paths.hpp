@@ -101,6 +101,16 @@ struct ExactMotion {
         set(row, axis, DoubleDouble{anchor, 0}, velocity, time);
     }
 
+    /// Puts a body back on the path that an anchor is of.
+    QUADRILLE_HD void takeBack(std::uint32_t row, const Anchor<Real>& before) const {
+        const auto& m = bodies.moving;
+        m.anchors[row] = before;
+        if constexpr (!falls) {
+            m.vx[row] = before.vx;
+            m.vy[row] = before.vy;
+        }
+    }
+
     /// Puts a body on another straight path, with an anchor as near as need be. It is moved to a
     /// time on a coarse grid of powers of two, so that few digits are added: on a lattice of
     /// doubles none is lost, elsewhere so little that millions of times are not seen.

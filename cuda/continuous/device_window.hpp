@@ -16,11 +16,16 @@
 
 namespace quadrille::cuda {
 
-/// A partition of device memory that a counter tells how much is wanted of. Counters that many
-/// threads count up lie apart.
+/// Counters that many threads count up lie apart.
 struct alignas(128) Counter {
     std::uint32_t value;
 };
+
+/// So near to the end of a window, in windows, a pair is listed for the next one as well.
+inline constexpr double unsureOfEnds = 1e-3;
+/// By so much the ends of steps may differ from those of the windows that pairs are listed for.
+inline constexpr double mostDifference = 1e-4;
+static_assert(2 * mostDifference < unsureOfEnds, "else a pair might be listed for the wrong one");
 
 /// Why a window was not carried out. What it had changed is undone.
 namespace trouble {
@@ -29,7 +34,7 @@ inline constexpr std::uint32_t entries = 2;      ///< no room in the list of a w
 inline constexpr std::uint32_t events = 4;       ///< no room for events
 inline constexpr std::uint32_t claimed = 8;      ///< no room for the bodies of the islands
 inline constexpr std::uint32_t records = 16;     ///< no room for contacts to be kept
-inline constexpr std::uint32_t crowded = 32;     ///< an island is too much for one thread
+inline constexpr std::uint32_t crowded = 32;     ///< an island is too much for a warp
 inline constexpr std::uint32_t tooFast = 64;     ///< a body outran what the partition covers
 inline constexpr std::uint32_t notFinite = 128;  ///< a position is none
 }  // namespace trouble
@@ -38,7 +43,6 @@ inline constexpr std::uint32_t notFinite = 128;  ///< a position is none
 enum class Fate : std::uint8_t {
     Concerned,  ///< others may have to do with it: it belongs to an island
     Nothing,    ///< nobody has, and it does nothing
-    Change,     ///< nobody has, and it changes paths without a collision
     Collision,  ///< nobody has
 };
 
@@ -51,7 +55,7 @@ struct alignas(8) EventMark {
 /// What a window counts. There are two, and the one that is not in use is zero.
 struct WindowCounts {
     Counter events, concerned, claimed, islands, records, troubles;
-    unsigned long long happened, collisions;
+    unsigned long long collisions;
 };
 
 /// Pairs that may meet in a window, in no order; some come twice.
