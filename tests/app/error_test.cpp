@@ -148,8 +148,10 @@ TEST_F(Error, NeedsAFrame) {
 }
 
 TEST_F(Error, IsWrittenUpToTheLastFrameWhenInterrupted) {
-    Process process(QUADRILLE_PROGRAM, {"--headless", "--scene", "imbalanced-clear", "--error",
-                                        "--report-every", "0.05", "--json", file("run.json")});
+    // Frames so short that the run is never ended inside one, which leaves no error to write.
+    Process process(QUADRILLE_PROGRAM,
+                    {"--headless", "--scene", "imbalanced-clear", "--entities", "200", "--error",
+                     "--report-every", "0.05", "--json", file("run.json")});
     ASSERT_TRUE(process.waitUntil([&] { return contains(process.out(), "ms/frame"); }));
     process.sendSignal(SIGINT);
     const ProcessResult result = process.finish();
