@@ -224,7 +224,7 @@ bool ResidentContinuous<Real>::partition(double now, double length, Step<Real>& 
     const std::uint32_t rows = bodies_.movingCount();
     // Where one window is to hold very many, few of its kind.
     const std::size_t mostEntries =
-        std::max<std::size_t>(entries_.capacity(), 8 * std::size_t(rows));
+        std::max(entries_.capacity(), std::size_t(mostWindows) * withRoom(rows / 4));
     const auto most = static_cast<std::uint32_t>(
         std::clamp<std::size_t>(mostEntries / entryRoom_, 1, mostWindows));
     const std::uint32_t windows = std::min(chooseWindows(length), most);
@@ -340,7 +340,7 @@ bool ResidentContinuous<Real>::mend(const WindowResult& result) {
     if ((result.troubles & trouble::partition) != 0) {
         if (result.gridEntries == none) return false;  // more than 32 bits count
         if (grid_.lacksRoom(result.gridEntries)) {
-            grid_.makeRoom(result.gridEntries + result.gridEntries / 16);
+            grid_.makeRoom(std::size_t(result.gridEntries) + result.gridEntries / 16);
         } else {
             noteDensity(result.pairs);
         }
