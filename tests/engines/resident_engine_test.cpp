@@ -63,6 +63,15 @@ std::unique_ptr<BodyStore> storeOf(const LawBodies<double>& bodies) {
     return store;
 }
 
+/// Writes where a store's bodies are, and how fast.
+void copyTo(const LawBodies<double>& bodies, const BodyStore& store) {
+    const BodyView<double> here = store.read<double>();
+    std::ranges::copy(here.moving.x, bodies.moving.x.begin());
+    std::ranges::copy(here.moving.y, bodies.moving.y.begin());
+    std::ranges::copy(here.moving.vx, bodies.moving.vx.begin());
+    std::ranges::copy(here.moving.vy, bodies.moving.vy.begin());
+}
+
 SimulationConfig onOneCore(SimulationConfig config) {
     config.resolver = ResolverKind::Sequential;
     config.countMissedPairs = false;
@@ -93,11 +102,7 @@ class FakePipeline final : public ResidentPipeline<double> {
     }
     void fetch(const LawBodies<double>& bodies) override {
         device.failIn(Fails::InFetch, ++device.fetches);
-        const BodyView<double> here = store_->read<double>();
-        std::ranges::copy(here.moving.x, bodies.moving.x.begin());
-        std::ranges::copy(here.moving.y, bodies.moving.y.begin());
-        std::ranges::copy(here.moving.vx, bodies.moving.vx.begin());
-        std::ranges::copy(here.moving.vy, bodies.moving.vy.begin());
+        copyTo(bodies, *store_);
     }
     const Cells& cells() override { return engine_.cells(); }
     std::span<const ContactRecord> contacts() override { return engine_.contacts(); }
@@ -148,11 +153,7 @@ class FakeExactPipeline final : public ResidentPipeline<double> {
     }
     void fetch(const LawBodies<double>& bodies) override {
         device.failIn(Fails::InFetch, ++device.fetches);
-        const BodyView<double> here = store_->read<double>();
-        std::ranges::copy(here.moving.x, bodies.moving.x.begin());
-        std::ranges::copy(here.moving.y, bodies.moving.y.begin());
-        std::ranges::copy(here.moving.vx, bodies.moving.vx.begin());
-        std::ranges::copy(here.moving.vy, bodies.moving.vy.begin());
+        copyTo(bodies, *store_);
         std::ranges::copy(advanced().anchors, bodies.anchors.begin());
     }
     const Cells& cells() override { return engine_.cells(); }
@@ -428,6 +429,25 @@ TEST_F(ResidentEngineTest, TheHostGoesOnWhereTheDeviceStopped) {
     EXPECT_GT(device.steps, 20);
     EXPECT_GT(left, 5);
     EXPECT_LT(left, 110);
+}
+
+/// A pipeline that knows what time it is must not be told another one.
+TEST_F(ResidentEngineTest, BodiesThatKeepAnchorsAreSentAgainWhenStepsAreNumberedAnew) {
+    SimulationConfig config = configured();
+    config.law = Law::Continuous;
+    config.step = {};
+    Stepped run{
+        std::make_unique<ResidentEngine<double>>(config, scene().config().size, 2, makeFakeExact)};
+    run.step();
+    run.step();
+    stateHash(run.world);
+    EXPECT_EQ(device.loads, 1);
+    run.step();
+    EXPECT_EQ(device.loads, 1) << "reading is no edit";
+    stateHash(run.world);
+    run.done = 40;
+    run.step();
+    EXPECT_EQ(device.loads, 2);
 }
 
 }  // namespace
