@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <numeric>
-#include <optional>
-#include <ostream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -13,6 +11,7 @@
 #include <quadrille/names.hpp>
 #include <quadrille/state_hash.hpp>
 
+#include "cases.hpp"
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
 #include "core/world_access.hpp"
@@ -27,25 +26,7 @@ using EveryFrames = SemiStaticQuadtree::EveryFrames;
 
 SimulationConfig configOf(const Scene& scene) { return {.step = scene.step}; }
 
-struct Case {
-    std::string scene;
-    std::optional<std::uint64_t> entities;
-    std::uint64_t steps;
-    double dt = 0;  ///< s; 0 is the scene's
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) {
-    return out << c.scene << ", " << c.steps << " steps";
-}
-
-struct Cells {
-    std::string name;
-    PartitionerConfig config;
-};
-
-std::ostream& operator<<(std::ostream& out, const Cells& cells) { return out << cells.name; }
-
-const std::vector<Cells> partitioners = {
+const std::vector<CellsCase> partitioners = {
     {"grid", StaticGrid{}},
     {"coarseGrid", StaticGrid{{300, 200}}},
     {"quadtree", Quadtree{}},
@@ -57,44 +38,39 @@ const std::vector<Cells> partitioners = {
 };
 
 class ShippedScenesOnDevice
-    : public testing::TestWithParam<std::tuple<Case, Cells, Law, Precision>> {};
+    : public testing::TestWithParam<std::tuple<SceneCase, CellsCase, Law, Precision>> {};
 
 TEST_P(ShippedScenesOnDevice, HaveTheBitsOfTheSequentialResolver) {
     QUADRILLE_NEEDS_DEVICE();
     const auto& [c, cells, law, precision] = GetParam();
-    SimulationConfig config = configOf(shippedScene(c.scene, c.entities));
-    config.partitioner = cells.config;
-    config.law = law;
-    config.precision = precision;
-    if (c.dt > 0) config.step.dt = c.dt;
-    const std::uint64_t contacts =
-        expectLockstep([&] { return shippedScene(c.scene, c.entities).world; }, config, c.steps);
-    EXPECT_GT(contacts, 0u);
+    expectSceneInLockstep(c, {.partitioner = cells.config, .law = law, .precision = precision});
 }
 
 std::string nameOf(const testing::TestParamInfo<ShippedScenesOnDevice::ParamType>& test) {
     const auto& [c, cells, law, precision] = test.param;
     std::string text = c.scene + '_' + cells.name + '_' + std::string(name(law)) + '_' +
                        std::string(name(precision));
-    for (char& letter : text) letter = letter == '-' ? '_' : letter;
-    return text;
+    return testName(text);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, ShippedScenesOnDevice,
-    testing::Combine(testing::Values(Case{"balanced", 3000, 40, 0.5}, Case{"imbalanced", 200, 20},
-                                     Case{"demo13k", 2000, 30, 0.1}, Case{"mixed-sizes", 600, 30},
-                                     Case{"pile", 300, 60}, Case{"cradle", {}, 100}),
-                     testing::ValuesIn(partitioners), testing::Values(Law::Impulse, Law::Baseline),
-                     testing::Values(Precision::Double, Precision::Float)),
-    nameOf);
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScenesOnDevice,
+                         testing::Combine(testing::Values(SceneCase{"balanced", 3000, 40, 0.5},
+                                                          SceneCase{"imbalanced", 200, 20},
+                                                          SceneCase{"demo13k", 2000, 30, 0.1},
+                                                          SceneCase{"mixed-sizes", 600, 30},
+                                                          SceneCase{"pile", 300, 60},
+                                                          SceneCase{"cradle", {}, 100}),
+                                          testing::ValuesIn(partitioners),
+                                          testing::Values(Law::Impulse, Law::Baseline),
+                                          testing::Values(Precision::Double, Precision::Float)),
+                         nameOf);
 
 class RandomScenesOnDevice : public testing::TestWithParam<SceneKind> {};
 
 TEST_P(RandomScenesOnDevice, HaveTheBitsOfTheSequentialResolver) {
     QUADRILLE_NEEDS_DEVICE();
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
-        const Cells& cells = partitioners[seed % partitioners.size()];
+        const CellsCase& cells = partitioners[seed % partitioners.size()];
         SCOPED_TRACE("seed " + std::to_string(seed) + ", " + cells.name);
         expectLockstep(
             [&] { return randomScene(GetParam(), seed); },
@@ -108,11 +84,7 @@ TEST_P(RandomScenesOnDevice, HaveTheBitsOfTheSequentialResolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomScenesOnDevice, testing::ValuesIn(sceneKinds),
-                         [](const auto& test) {
-                             std::string text(name(test.param));
-                             std::erase_if(text, [](char c) { return !std::isalnum(c); });
-                             return text;
-                         });
+                         testNameOfKind);
 
 class OptionsOnDevice : public testing::TestWithParam<std::tuple<int, CudaThread, Law>> {};
 
@@ -166,7 +138,7 @@ TEST(SmallWorldsOnDevice, HaveTheBitsOfTheSequentialResolver) {
         for (int i = 0; i < fixed; ++i) makeBox(w, {6.0 + i, 0}, quadrille::fixed());
         return w;
     };
-    for (const Cells& cells : partitioners) {
+    for (const CellsCase& cells : partitioners) {
         for (const Law law : {Law::Impulse, Law::Baseline}) {
             for (const auto& [moving, fixed] : {std::pair{0, 0}, {0, 3}, {1, 0}, {1, 1}, {5, 2}}) {
                 SCOPED_TRACE(cells.name + ", " + std::to_string(moving) + " moving, " +
@@ -212,7 +184,7 @@ World boxesAmongStaticOnes() {
     return world;
 }
 
-class PermutedOnDevice : public testing::TestWithParam<std::tuple<Cells, Precision>> {};
+class PermutedOnDevice : public testing::TestWithParam<std::tuple<CellsCase, Precision>> {};
 
 TEST_P(PermutedOnDevice, HaveTheBitsOfRowsInOrderOfCreation) {
     QUADRILLE_NEEDS_DEVICE();

@@ -2,12 +2,9 @@
 // the device does not do, the host does, with the same bits.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <optional>
-#include <ostream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -18,6 +15,7 @@
 #include <quadrille/snapshot.hpp>
 #include <quadrille/state_hash.hpp>
 
+#include "cases.hpp"
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
 #include "core/world_access.hpp"
@@ -26,13 +24,6 @@
 
 namespace quadrille {
 namespace {
-
-struct CellsCase {
-    std::string name;
-    PartitionerConfig config;
-};
-
-std::ostream& operator<<(std::ostream& out, const CellsCase& cells) { return out << cells.name; }
 
 const std::vector<CellsCase> partitioners = {
     {"grid", StaticGrid{}},           {"coarseGrid", StaticGrid{{300, 200}}},
@@ -48,34 +39,19 @@ SimulationConfig exact(const PartitionerConfig& cells = Quadtree{},
             .resolver = ResolverKind::CudaResident};
 }
 
-struct SceneCase {
-    std::string scene;
-    std::optional<std::uint64_t> entities;
-    std::uint64_t steps;
-    double dt = 0;  ///< s; 0 is the scene's
-};
-
-std::ostream& operator<<(std::ostream& out, const SceneCase& c) { return out << c.scene; }
-
 class ResidentExactScenes
     : public testing::TestWithParam<std::tuple<SceneCase, CellsCase, Precision>> {};
 
 TEST_P(ResidentExactScenes, HaveTheBitsOfTheSequentialResolver) {
     QUADRILLE_NEEDS_DEVICE();
     const auto& [c, cells, precision] = GetParam();
-    SimulationConfig config = exact(cells.config, precision);
-    config.step = shippedScene(c.scene, c.entities).step;
-    if (c.dt > 0) config.step.dt = c.dt;
-    const std::uint64_t contacts =
-        expectLockstep([&] { return shippedScene(c.scene, c.entities).world; }, config, c.steps);
-    EXPECT_GT(contacts, 0u);
+    expectSceneInLockstep(c, exact(cells.config, precision));
 }
 
 std::string nameOf(const testing::TestParamInfo<ResidentExactScenes::ParamType>& test) {
     const auto& [c, cells, precision] = test.param;
     std::string text = c.scene + '_' + cells.name + '_' + std::string(name(precision));
-    for (char& letter : text) letter = letter == '-' ? '_' : letter;
-    return text;
+    return testName(text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ResidentExactScenes,
@@ -170,11 +146,7 @@ TEST_P(ResidentExactRandomScenes, HaveTheBitsOfTheSequentialResolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ResidentExactRandomScenes, testing::ValuesIn(sceneKinds),
-                         [](const auto& test) {
-                             std::string text(name(test.param));
-                             std::erase_if(text, [](char c) { return !std::isalnum(c); });
-                             return text;
-                         });
+                         testNameOfKind);
 
 TEST(ResidentExact, HasTheBitsInWorldsOfFewBodies) {
     QUADRILLE_NEEDS_DEVICE();

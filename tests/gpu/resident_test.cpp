@@ -1,13 +1,10 @@
 // The resolver `cuda-resident` gives the bits of the sequential one, with bodies that stay on the
 // device for as long as nobody looks at them.
 
-#include <cctype>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
-#include <optional>
-#include <ostream>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -19,6 +16,7 @@
 #include <quadrille/snapshot.hpp>
 #include <quadrille/state_hash.hpp>
 
+#include "cases.hpp"
 #include "collision/random_scene.hpp"
 #include "collision/support.hpp"
 #include "core/world_access.hpp"
@@ -30,27 +28,11 @@ namespace {
 
 constexpr ResolverKind resident = ResolverKind::CudaResident;
 
-struct CellsCase {
-    std::string name;
-    PartitionerConfig config;
-};
-
-std::ostream& operator<<(std::ostream& out, const CellsCase& cells) { return out << cells.name; }
-
 const std::vector<CellsCase> partitioners = {
     {"grid", StaticGrid{}},           {"coarseGrid", StaticGrid{{300, 200}}},
     {"fineGrid", StaticGrid{{5, 3}}}, {"quadtree", Quadtree{}},
     {"skin", SemiStaticQuadtree{}},   {"bruteForce", BruteForce{}},
 };
-
-struct SceneCase {
-    std::string scene;
-    std::optional<std::uint64_t> entities;
-    std::uint64_t steps;
-    double dt = 0;  ///< s; 0 is the scene's
-};
-
-std::ostream& operator<<(std::ostream& out, const SceneCase& c) { return out << c.scene; }
 
 class ResidentScenes : public testing::TestWithParam<std::tuple<SceneCase, CellsCase, Precision>> {
 };
@@ -58,22 +40,16 @@ class ResidentScenes : public testing::TestWithParam<std::tuple<SceneCase, Cells
 TEST_P(ResidentScenes, HaveTheBitsOfTheSequentialResolver) {
     QUADRILLE_NEEDS_DEVICE();
     const auto& [c, cells, precision] = GetParam();
-    SimulationConfig config{.partitioner = cells.config,
-                            .law = Law::Impulse,
-                            .precision = precision,
-                            .resolver = resident,
-                            .step = shippedScene(c.scene, c.entities).step};
-    if (c.dt > 0) config.step.dt = c.dt;
-    const std::uint64_t contacts =
-        expectLockstep([&] { return shippedScene(c.scene, c.entities).world; }, config, c.steps);
-    EXPECT_GT(contacts, 0u);
+    expectSceneInLockstep(c, {.partitioner = cells.config,
+                              .law = Law::Impulse,
+                              .precision = precision,
+                              .resolver = resident});
 }
 
 std::string nameOf(const testing::TestParamInfo<ResidentScenes::ParamType>& test) {
     const auto& [c, cells, precision] = test.param;
     std::string text = c.scene + '_' + cells.name + '_' + std::string(name(precision));
-    for (char& letter : text) letter = letter == '-' ? '_' : letter;
-    return text;
+    return testName(text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ResidentScenes,
@@ -129,11 +105,7 @@ TEST_P(ResidentRandomScenes, HaveTheBitsOfTheSequentialResolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ResidentRandomScenes, testing::ValuesIn(sceneKinds),
-                         [](const auto& test) {
-                             std::string text(name(test.param));
-                             std::erase_if(text, [](char c) { return !std::isalnum(c); });
-                             return text;
-                         });
+                         testNameOfKind);
 
 World someBoxes(int count, bool own = false) {
     World world({.size = {300, 300}});
