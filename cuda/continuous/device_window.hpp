@@ -144,4 +144,9 @@ struct Window {
     float close;  ///< px; bodies farther from each other do not meet in it
 };
 
+/// How many items kernels are launched for.
+struct WindowExpectation {
+    std::uint32_t entries, events, concerned, claimed;
+};
+
 }  // namespace quadrille::cuda

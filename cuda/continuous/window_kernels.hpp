@@ -24,11 +24,6 @@ struct WindowResult {
     Survey survey;
 };
 
-/// How many items kernels are launched for.
-struct WindowExpectation {
-    std::uint32_t entries, events, concerned, claimed;
-};
-
 /// Carries out the events of a window, and finds what its bodies do in later ones. Where there is
 /// trouble, takes back what it has done. Writes the result to page-locked memory.
 template <class Real>
