@@ -5,7 +5,7 @@
 #include <span>
 
 #include "collision/law.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "collision/rules/event_order.hpp"
 #include "cuda/bodies/body_kernels.hpp"
 #include "cuda/device/device_session.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision/contact_record.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "collision/rules/step_parameters.hpp"
 #include "cuda/bodies/device_bodies.hpp"
 #include "cuda/device/device_session.hpp"

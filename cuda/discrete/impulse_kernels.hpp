@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "collision/rules/step_parameters.hpp"
 #include "cuda/bodies/body_kernels.hpp"
 #include "cuda/device/launch.hpp"

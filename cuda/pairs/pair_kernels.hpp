@@ -6,7 +6,7 @@
 #include <quadrille/cell_coordinates.hpp>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "collision/rules/fine_grid.hpp"
 #include "collision/rules/impulse_contact.hpp"
 #include "cuda/bodies/body_kernels.hpp"

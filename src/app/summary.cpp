@@ -39,6 +39,7 @@ Json partitionerParameters(const PartitionerConfig& config) {
                 }
                 return result;
             } else {
+                static_assert(std::is_same_v<C, BruteForce>);
                 return Json::object();
             }
         },

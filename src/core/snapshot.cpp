@@ -281,6 +281,8 @@ void saveSnapshot(const std::filesystem::path& file, const Simulation& simulatio
     out.commit();
 }
 
+/// Refused are a file that is not whole (snapshot_stream.cpp), settings that no run can have
+/// (step_fault.hpp), what cannot be read (here), and an unsound world (validate.cpp).
 Snapshot loadSnapshot(const std::filesystem::path& file) {
     SnapshotReader in(file);
     std::string start(magic.size(), '\0');

@@ -21,10 +21,12 @@ std::size_t threadsPayFrom(int threads) { return threads >= 4 ? 5'000 : 10'000; 
 
 ResolverKind chooseResolver(const SimulationConfig& config, std::size_t movingCount) {
     // The device is looked for last: that takes longer than many a small run.
+    // Exact steps that can stay there are faster than those of any host.
     if (config.law == Law::Continuous && staysOnDevice(config.law, config.step) &&
         movingCount >= devicePaysFrom && findCudaDevice().usable()) {
         return ResolverKind::CudaResident;
     }
+    // A law that threads cannot share out, `baseline`, gains nothing on a device either.
     if (runsOn(config.law, ResolverKind::Cuda) && runsOn(config.law, ResolverKind::Threads) &&
         movingCount >= devicePaysFrom && findCudaDevice().usable()) {
         return ResolverKind::Cuda;

@@ -9,7 +9,9 @@
 namespace quadrille {
 
 /// An engine that is replaced by another one, with the same result, when its device is missing or
-/// fails: at once, or in the middle of a step.
+/// fails: at once, or in the middle of a step. The state is the failing engine's matter: `cuda` has
+/// changed nothing by then (law.hpp), and `cuda-resident` repeats the steps that only the device
+/// has done (ResidentEngine::repeatSteps).
 class FallbackEngine final : public Engine {
   public:
     using Make = std::function<std::unique_ptr<Engine>()>;

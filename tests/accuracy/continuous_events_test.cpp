@@ -6,7 +6,7 @@
 #include <quadrille/names.hpp>
 #include <quadrille/state_hash.hpp>
 
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "hard_cases/hard_case.hpp"
 
 // Details of the law `continuous` that scenes at large hardly show: events at the ends of steps,

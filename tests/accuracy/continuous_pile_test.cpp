@@ -129,7 +129,7 @@ TEST(ContinuousPile, FallsWhenItsSupportIsTaken) {
 
 // The support stops at a wall at the instant at which the upper box leaves its edge. Whichever of
 // the two events comes first, which the entities' numbers decide, the upper box must notice.
-TEST(ContinuousPile, FallsWhenItsSupportEndsAtTheInstantOfAnotherEvent) {
+TEST(ContinuousPile, FallsWhenItsRestEndsAtTheInstantOfAnotherEvent) {
     constexpr int copies = 12;
     std::vector<Body> bodies;
     for (int i = 0; i < copies; ++i) {

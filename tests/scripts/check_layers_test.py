@@ -64,7 +64,7 @@ class Planted(unittest.TestCase):
                     '"collision/discrete/planted.hpp" is of discrete; continuous may include')
 
     def test_rules_take_only_what_a_kernel_can(self):
-        self.expect('src/collision/rules/contact_law.hpp', '#include <vector>', '<vector>: rules')
+        self.expect('src/collision/rules/pair_contact.hpp', '#include <vector>', '<vector>: rules')
 
     def test_what_rules_include_is_as_plain(self):
         self.expect('include/quadrille/body_ref.hpp', '#include <string>', '<string>: vocabulary')

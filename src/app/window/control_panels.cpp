@@ -115,6 +115,7 @@ bool editParameters(PartitionerConfig& config) {
                 const bool tree = editTree(c.maxDepth, c.maxPerCell);
                 return editRebuild(c.rebuild) || tree;
             } else {
+                static_assert(std::is_same_v<C, BruteForce>);
                 return false;
             }
         },

@@ -6,7 +6,7 @@
 #include "collision/continuous/event_search.hpp"
 #include "collision/continuous/event_window.hpp"
 #include "collision/continuous/pushed_groups.hpp"
-#include "collision/continuous/support_ends.hpp"
+#include "collision/continuous/rest_ends.hpp"
 #include "collision/law.hpp"
 #include "collision/rules/event_rules.hpp"
 
@@ -93,7 +93,7 @@ class EventLoop {
     EventLoopState& state_;
     EventWindow window_;
     PushedGroups<Real, Path> groups_;
-    SupportEnds<Real, Path> resting_;
+    RestEnds<Real, Path> resting_;
     double stoppedAt_ = 0;  // s
     bool jammed_ = false;   // a body collided so often at once that it gets nowhere
 };

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 
 namespace quadrille {
 

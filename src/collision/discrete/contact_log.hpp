@@ -6,7 +6,7 @@
 
 #include "collision/contact_record.hpp"
 #include "collision/make_record.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "collision/rules/impulse_contact.hpp"
 
 namespace quadrille {

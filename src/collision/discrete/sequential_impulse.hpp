@@ -8,7 +8,7 @@
 #include "collision/discrete/canonical_sort.hpp"
 #include "collision/discrete/discrete_law.hpp"
 #include "collision/pairs/narrow_phase.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 #include "collision/static_barrier.hpp"
 
 namespace quadrille {

@@ -10,8 +10,8 @@
 #include "collision/broad/extents.hpp"
 #include "collision/broad/partitioner.hpp"
 #include "collision/pairs/cell_walk.hpp"
-#include "collision/rules/contact_law.hpp"
 #include "collision/rules/mix64.hpp"
+#include "collision/rules/pair_contact.hpp"
 
 namespace quadrille {
 

@@ -10,7 +10,7 @@
 #include "collision/pairs/candidate_pairs.hpp"
 #include "collision/pairs/cell_walk.hpp"
 #include "collision/pairs/hit_bits.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/pair_geometry.hpp"
 
 namespace quadrille {

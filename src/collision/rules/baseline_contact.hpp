@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/pair_geometry.hpp"
 
 /// What a contact of the law `baseline` does to its bodies, over plain pointers, so that every

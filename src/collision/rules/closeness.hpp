@@ -2,7 +2,7 @@
 
 #include <quadrille/detail/host_device.hpp>
 
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/paths.hpp"
 
 /// How near bodies must be to meet within a stretch of time, for host and device alike: bounds that

@@ -6,7 +6,7 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/canonical_order.hpp"
+#include "collision/rules/contact_order.hpp"
 
 /// What an event of the law `continuous` is, and which comes first, for host and device alike.
 

@@ -6,8 +6,8 @@
 #include <quadrille/body_ref.hpp>
 #include <quadrille/detail/host_device.hpp>
 
-#include "collision/rules/contact_law.hpp"
 #include "collision/rules/event_order.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/paths.hpp"
 #include "collision/rules/rest_rules.hpp"
 #include "collision/rules/trajectory.hpp"
@@ -21,10 +21,9 @@
 /// of least penetration and collide only if they approach (Bannerman et al., arXiv:1211.6718). Deep
 /// inside each other and without loss, they do so once at any instant.
 ///
-/// What would otherwise have no end, ends so. A rebound off something that holds is none if gravity
-/// would bring it back before it left the touching distance: the body then rests, without
-/// acceleration, until it is hit, or slides off its last support. Where restitution is below 1,
-/// pairs that would part slower than `restSpeed` go on with their common velocity. A body that
+/// What would otherwise have no end, ends so. Bodies come to rest on what holds them
+/// (rest_rules.hpp). Where restitution is below 1, pairs that would part slower than `restSpeed` go
+/// on with their common velocity. A body that
 /// rests is held by its support: with restitution below 1, what falls on it rebounds as from the
 /// support itself (Newton's law for simultaneous impacts; Moreau 1988), so that a pile does not
 /// pass each impact down and up again without end. And a body that collides again and again at one

@@ -6,7 +6,7 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/cell_ownership.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 
 namespace quadrille {
 

@@ -5,8 +5,8 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/canonical_order.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/contact_order.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/pair_geometry.hpp"
 #include "collision/rules/step_parameters.hpp"
 

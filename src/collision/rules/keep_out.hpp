@@ -5,7 +5,7 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/pair_geometry.hpp"
 #include "collision/rules/static_map_view.hpp"
 

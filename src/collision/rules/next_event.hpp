@@ -5,8 +5,8 @@
 #include <quadrille/body_ref.hpp>
 #include <quadrille/detail/host_device.hpp>
 
-#include "collision/rules/contact_law.hpp"
 #include "collision/rules/event_order.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/paths.hpp"
 #include "collision/rules/rest_rules.hpp"
 #include "collision/rules/trajectory.hpp"

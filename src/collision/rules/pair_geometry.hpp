@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 
 /// Which pairs of boxes overlap, for host and device alike: sums and differences are taken in one
 /// order, so that rounding shows everybody the same pairs.

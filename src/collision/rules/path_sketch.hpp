@@ -4,7 +4,7 @@
 
 #include <quadrille/detail/host_device.hpp>
 
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/paths.hpp"
 
 /// Paths as straight lines in single precision, to see quickly that most candidates do not come

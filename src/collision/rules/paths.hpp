@@ -8,8 +8,8 @@
 #include <quadrille/detail/host_device.hpp>
 
 #include "collision/rules/bodies.hpp"
-#include "collision/rules/contact_law.hpp"
 #include "collision/rules/double_double.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/trajectory.hpp"
 
 /// On which path each body of the law `continuous` is, for host and device alike.

@@ -5,11 +5,18 @@
 #include <quadrille/body_ref.hpp>
 #include <quadrille/detail/host_device.hpp>
 
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "collision/rules/paths.hpp"
 #include "collision/rules/trajectory.hpp"
 
 /// What holds bodies that fall, for host and device alike: who rests on whom, and until when.
+///
+/// A rebound off something that holds is none if gravity would bring it back before it left the
+/// touching distance: the body then rests, without acceleration. That begins in `collide`
+/// (event_rules.hpp). It ends when the body is hit (the same), when its last support ends
+/// (`findRest`, next_event.hpp), when a support has changed (`RestEnds`), and when somebody edits
+/// the body (`ContinuousLaw::setOut`). With the law `impulse` nothing rests: a contact with a
+/// static box takes what gravity has brought (`collideStatic`, pair_contact.hpp).
 
 namespace quadrille {
 

@@ -5,8 +5,8 @@
 
 #include <quadrille/detail/host_device.hpp>
 
-#include "collision/rules/contact_law.hpp"
 #include "collision/rules/double_double.hpp"
+#include "collision/rules/pair_contact.hpp"
 
 /// Exact motion between events, and when two boxes meet, for host and device alike.
 

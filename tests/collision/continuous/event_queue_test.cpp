@@ -9,7 +9,7 @@
 
 #include <quadrille/random.hpp>
 
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 
 namespace quadrille {
 namespace {

@@ -1,5 +1,7 @@
 // Contacts are resolved and handed out in canonical order: by time, a hash of the pair, the ids.
 
+#include "collision/rules/contact_order.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +14,6 @@
 
 #include "collision/discrete/canonical_sort.hpp"
 #include "collision/random_scene.hpp"
-#include "collision/rules/canonical_order.hpp"
 #include "collision/support.hpp"
 
 namespace quadrille {

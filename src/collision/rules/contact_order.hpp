@@ -35,7 +35,7 @@ QUADRILLE_HD inline bool samePair(const PendingContact<Real>& p, const PendingCo
     return p.a == q.a && p.b == q.b;
 }
 
-/// The canonical order: by physics and the order of creation alone.
+/// The canonical order: by time, a hash of the entities, and the order of creation.
 struct CanonicalOrder {
     CreationNumbers moving, fixed;
 

@@ -1,4 +1,4 @@
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/pair_contact.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,10 +1,10 @@
-#include "collision/continuous/support_ends.hpp"
+#include "collision/continuous/rest_ends.hpp"
 
 namespace quadrille {
 
 /// Bodies that may hold one up; those that another loop may be changing are too far away for it.
 template <class Real, class Path>
-std::span<const BodyRef> SupportEnds<Real, Path>::supportsOf(std::uint32_t row) {
+std::span<const BodyRef> RestEnds<Real, Path>::supportsOf(std::uint32_t row) {
     const auto all = search_.neighbours()[row];
     if (!window_.isShared()) return all;
     state_.supports.clear();
@@ -16,7 +16,7 @@ std::span<const BodyRef> SupportEnds<Real, Path>::supportsOf(std::uint32_t row) 
 
 /// Lets a body fall unless something holds it, and notes that it has changed.
 template <class Real, class Path>
-bool SupportEnds<Real, Path>::release(std::uint32_t row, int axis, double now) {
+bool RestEnds<Real, Path>::release(std::uint32_t row, int axis, double now) {
     if (!search_.motion().rests(row, axis)) return false;
     if (!quadrille::release(search_.motion(), row, supportsOf(row), axis, now)) return false;
     search_.changed(row);
@@ -25,7 +25,7 @@ bool SupportEnds<Real, Path>::release(std::uint32_t row, int axis, double now) {
 }
 
 template <class Real, class Path>
-bool SupportEnds<Real, Path>::release(const PairEvent& event) {
+bool RestEnds<Real, Path>::release(const PairEvent& event) {
     const int axis = event.axes == axisX ? 0 : 1;
     const bool first = release(event.a, axis, event.time);
     const bool second = !event.withStatic() && release(event.b.row(), axis, event.time);
@@ -33,7 +33,7 @@ bool SupportEnds<Real, Path>::release(const PairEvent& event) {
 }
 
 template <class Real, class Path>
-void SupportEnds<Real, Path>::releaseFromChanged(double now) {
+void RestEnds<Real, Path>::releaseFromChanged(double now) {
     if (!state_.mayRest) return;
     for (std::size_t i = 0; i < state_.changed.size(); ++i) {
         for (int axis = 0; axis < 2; ++axis) {
@@ -48,7 +48,7 @@ void SupportEnds<Real, Path>::releaseFromChanged(double now) {
     }
 }
 
-template class SupportEnds<double, FallingPath>;
-template class SupportEnds<float, FallingPath>;
+template class RestEnds<double, FallingPath>;
+template class RestEnds<float, FallingPath>;
 
 }  // namespace quadrille

@@ -12,12 +12,12 @@ namespace quadrille {
 
 /// Lets bodies fall that rested when nothing holds them any more.
 template <class Real, class Path>
-class SupportEnds {
+class RestEnds {
   public:
     using Search = EventSearch<Real, Path>;
 
     /// All must outlive this.
-    SupportEnds(const Search& search, EventLoopState& state, const EventWindow& window)
+    RestEnds(const Search& search, EventLoopState& state, const EventWindow& window)
         : search_(search), state_(state), window_(window) {}
 
     /// Carries out the end of a support. Returns whether any body falls.

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "collision/rules/canonical_order.hpp"
-#include "collision/rules/contact_law.hpp"
+#include "collision/rules/contact_order.hpp"
+#include "collision/rules/pair_contact.hpp"
 #include "kernel_test.hpp"
 
 // The contact law and the canonical order must give the same bits on host and device: everything
