@@ -193,7 +193,8 @@ class Island {
         warp_.sync();
         while (queue_.size > 0 && !failed_) {
             const PairEvent event = popFirst();
-            if (!isCurrent(event)) continue;
+            // Agreed on before the leader changes what the others look at.
+            if (!warp_.all(isCurrent(event))) continue;
             int state = 0;
             if (leads()) {
                 if (++events_ > mostEvents) fail(trouble::crowded);
@@ -287,6 +288,11 @@ class Island {
     /// Returns whether any path changed.
     __device__ bool resolve(const PairEvent& event) {
         const EventContact contact = contactOf(motion_, event);
+        if (event.withStatic()) {
+            held_ = event.time == heldAt_ ? held_ + 1 : 1;
+            heldAt_ = event.time;
+            if (held_ > mostHeld) fail(trouble::crowded);
+        }
         if (contact.deep) {
             if (separatedAlready(event)) return false;
             if (++overlaps_ > mostOverlaps) fail(trouble::crowded);
@@ -342,6 +348,8 @@ class Island {
     PairEvent after_;      // that the last contact counts as
     std::uint32_t kept_ = 0;
     std::uint32_t events_ = 0, overlaps_ = 0;
+    std::uint32_t held_ = 0;  // events with static bodies at one instant, of all bodies together
+    double heldAt_ = -1;      // s
     bool failed_ = false;
 };
 

@@ -67,14 +67,17 @@ struct Event {
 ///   hits it rebounds as from a static box. A rebound slower than `restSpeed` is none: both
 ///   sides go on with their common velocity. Boxes that approach slower than `creepSpeed` do not
 ///   collide. Contacts slower than `restSpeed` are not in events().
+/// - A box that collides over `mostHeld` times at one instant with static boxes, and with no other
+///   in between, exactly fits between them: it loses what it collides with.
 /// - A box that collides over `mostAtOnce` times within 2^-30 s, or, at restitution 1, while it
-///   touches within 2^-15 s, is jammed: it loses what it collides with. Moving boxes that are deep
-///   inside each other, one of them over `mostDeepAtOnce` times at once, let each other pass.
+///   touches within 2^-15 s, is jammed: it loses what it collides with, too. Moving boxes that are
+///   deep inside each other, one of them over `mostDeepAtOnce` times at once, let each other pass.
 class Oracle {
   public:
     static constexpr double touchDistance = 1e-9;  ///< of the distance of contact
     static constexpr double restSpeed = 1e-6;      ///< px/s
     static constexpr double creepSpeed = 1e-9;     ///< px/s
+    static constexpr int mostHeld = 8;
     static constexpr int mostAtOnce = 1000;
     static constexpr int mostDeepAtOnce = 64;
 

@@ -250,8 +250,10 @@ bool TrackModel::isJammed(std::int64_t i, std::int64_t j, int axis, bool deep, d
         ++box.atOnce;
         box.deepAtOnce += deep;
         box.touching += !fresh && restitution_ == 1 && now - box.last <= since;
+        box.held = j < 0 ? (now == box.last ? box.held : 0) + 1 : 0;
         box.last = now;
-        jammed |= box.atOnce > Oracle::mostAtOnce || box.touching > Oracle::mostAtOnce ||
+        jammed |= box.held > Oracle::mostHeld || box.atOnce > Oracle::mostAtOnce ||
+                  box.touching > Oracle::mostAtOnce ||
                   (deep && box.deepAtOnce > Oracle::mostDeepAtOnce);
     }
     return jammed;

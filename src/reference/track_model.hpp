@@ -52,7 +52,7 @@ class TrackModel {
         bool rests(int k) const { return support[std::size_t(k)] != nothing; }
 
         // Collisions in the present cells of time, and the time of the last one, s.
-        int atOnce = 0, deepAtOnce = 0, touching = 0;
+        int atOnce = 0, deepAtOnce = 0, touching = 0, held = 0;
         double last = -1;
     };
 

@@ -252,6 +252,36 @@ TEST(TightFit, StandsWhateverTheRestitution) {
     }
 }
 
+TEST(TightFit, OfOneBodyStandsAfterAFewCollisionsEachTimeThatItIsHit) {
+    std::vector<Body> bodies{{{0, 0}, {5, 0}, {4, 4}},
+                             {{-7, 0}, {0, 0}, {10, 4}, 1, true},
+                             {{7, 0}, {0, 0}, {10, 4}, 1, true},
+                             // Hits the first one's corner column from above, along y.
+                             {{0, 10}, {0, -12}, {4, 4}}};
+    Simulation sim = accuracy::simulate({Law::Continuous, Precision::Double}, bodies);
+    const accuracy::ContactLog log(sim);
+    sim.run(60);
+    // Eight that get nowhere, one that stops it; then the hit.
+    EXPECT_EQ(log.collisions().size(), 10u);
+    EXPECT_EQ(position(sim, 0).x(), 0);
+    EXPECT_EQ(velocity(sim, 0), Vec2(0, -12));
+    EXPECT_EQ(velocity(sim, 3), Vec2(0, 0));
+}
+
+// In a crowd no partition shows fewer pairs, however much happens there.
+TEST(TightFit, InACrowdNeedsNoNewPartition) {
+    std::vector<Body> bodies{{{0, 0}, {1, 0}, {4, 4}},
+                             {{-7, 0}, {0, 0}, {10, 4}, 1, true},
+                             {{7 + 1e-6, 0}, {0, 0}, {10, 4}, 1, true}};
+    constexpr std::size_t crowd = 40;
+    for (std::size_t i = 0; i < crowd; ++i)
+        bodies.push_back({{0, 4 + 0.01 * double(i)}, {0, 0}, {4, 4}});
+    Simulation sim = accuracy::simulate({Law::Continuous, Precision::Double}, bodies);
+    const StepReport report = sim.step();
+    EXPECT_GT(report.collisions, 10000u);
+    EXPECT_LT(report.pairsTested, 4 * crowd * crowd);
+}
+
 TEST(TightFit, OfARowStandsWithRoomBelowTheTouchingDistance) {
     for (const int count : {1, 2, 7, 44}) {
         for (const double room : {1e-11, 1e-10, 1e-9, 2e-9}) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision/rules/event_order.hpp"
+#include "collision/rules/event_rules.hpp"
 #include "collision/rules/mix64.hpp"
 
 namespace quadrille {
@@ -38,9 +39,11 @@ class Bursts {
         std::uint32_t events = 0;    ///< in the short cell
         std::uint32_t overlaps = 0;  ///< those of pairs that are deep inside each other
         std::uint32_t touches = 0;   ///< in the long cell, while touching
+        std::uint32_t held = 0;      ///< the last ones, with static bodies at one instant
 
         bool jam(bool deep) const {
-            return events > mostEvents || touches > mostEvents || (deep && overlaps > mostOverlaps);
+            return events > mostEvents || touches > mostEvents || held > mostHeld ||
+                   (deep && overlaps > mostOverlaps);
         }
     };
 
@@ -52,7 +55,7 @@ class Bursts {
             // Many are alone in their cell, and cost no look-up.
             first_ = hit;
             alone_ = true;
-            return {1, hit.deep, 0};
+            return {1, hit.deep, 0, hit.event.withStatic()};
         }
         settled();
         return count(hit);
@@ -109,7 +112,7 @@ class Bursts {
         if (hit.event.withStatic()) return most;
         const Counts other = add(hit.event.b.row(), hit);
         return {std::max(most.events, other.events), std::max(most.overlaps, other.overlaps),
-                std::max(most.touches, other.touches)};
+                std::max(most.touches, other.touches), 0};
     }
     Counts add(std::uint32_t row, const Hit& hit) {
         Entry& entry = entryOf(row);
@@ -121,6 +124,7 @@ class Bursts {
         ++counts.events;
         counts.overlaps += hit.deep;
         counts.touches += entry.last != never && now - entry.last <= hit.touching;
+        counts.held = hit.event.withStatic() ? (now == entry.last ? counts.held : 0) + 1 : 0;
         entry.last = now;
         return counts;
     }

@@ -280,7 +280,7 @@ double ContinuousLaw<Real, Path>::areaOf(std::size_t rows, double life) const {
 /// and the more pairs it shows. `rest` is what is left of the step. The result does not depend on
 /// the choice.
 template <class Real, class Path>
-double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double rest) const {
+double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double rest) {
     constexpr double longest = 60;  // s
 
     const auto count = static_cast<double>(rows);
@@ -298,7 +298,8 @@ double ContinuousLaw<Real, Path>::chooseLife(std::size_t rows, double rest) cons
     // Enormous speeds would make it so short that time stands still. Not against all of a long
     // step: what is short beside that may be long beside a collision.
     const double span = std::max(std::min(rest, 1.0), 1e-3 * rest);
-    if (!(best >= 1e-5 * span)) return span;
+    if (!(best >= 1e-5 * span)) return shortestLife_ = span;
+    shortestLife_ = best;
     // The first partitions show how crowded it is, step by step: pairs grow with the square.
     const double most = life_ > 0 ? std::min(4 * life_, longest) : best;
     for (double life = best; life < most; life *= 1.25) {
@@ -505,15 +506,19 @@ void ContinuousLaw<Real, Path>::requireProgress(const BodyView<Real>& bodies,
 }
 
 /// After how many events the candidate pairs have cost several times what a new partition would,
-/// which shows fewer: more happens than was expected when their life was chosen.
+/// of those that one of the shortest life would not show: more happens than was expected when their
+/// life was chosen.
 template <class Real, class Path>
 std::uint64_t ContinuousLaw<Real, Path>::eventsWorthTheLife(std::size_t rows) const {
     constexpr double patience = 4;
     const auto count = static_cast<double>(rows);
     const auto pairs = static_cast<double>(candidates_.size());
+    const double spared = pairs - density_ * areaOf(rows, shortestLife_);
     const double build = buildPrice * count + collectPrice * pairs;
-    const double event = againPrice * 4 * std::max(pairs / count, 1.0);
-    return static_cast<std::uint64_t>(patience * build / event) + 1;
+    const double events = patience * build * count / (4 * againPrice * spared);
+    constexpr auto most = std::numeric_limits<std::uint64_t>::max();
+    // In a crowd, where all are near, no partition shows fewer.
+    return spared > 0 && events < 1e18 ? static_cast<std::uint64_t>(events) + 1 : most;
 }
 
 /// How many bodies there are around each, from the pairs that the partition shows.

@@ -54,7 +54,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     template <class Function>
     double sumOver(std::size_t rows, Function&& function) const;
     double areaOf(std::size_t rows, double life) const;
-    double chooseLife(std::size_t rows, double rest) const;
+    double chooseLife(std::size_t rows, double rest);
     double largestHalf(const BodyView<Real>& bodies) const;
     void noteDensity(std::size_t rows);
     std::uint64_t eventsWorthTheLife(std::size_t rows) const;
@@ -97,6 +97,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     std::vector<double> ownBounds_;
     std::vector<Real> ownReach_;
     double life_ = 0;                // s, of the last partition, if no event ends it before
+    double shortestLife_ = 0;        // s, that it could have had
     double outlier_ = 0;             // times the mean speed; faster bodies have bounds of their own
     bool outran_ = false;            // an event made a body faster than its bound
     int editsSince_ = 0;             // partitionTime_, steps before which bodies were edited

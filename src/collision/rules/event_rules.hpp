@@ -37,6 +37,10 @@ namespace quadrille {
 inline constexpr double restSpeed = 1e-6;
 inline constexpr double creepSpeed = 1e-9;
 
+/// A body that collides with static ones more often than this at one instant, and with no other
+/// body in between, exactly fits between them.
+inline constexpr std::uint32_t mostHeld = 8;
+
 /// Approaches slower than this are none: rounding leaves bodies that move together so. 0 where
 /// restitution is 1, px/s.
 template <class Real>
