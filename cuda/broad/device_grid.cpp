@@ -9,8 +9,18 @@
 
 namespace quadrille::cuda {
 
+namespace {
+
+void requireCounted(std::uint32_t entries) {
+    if (entries != none) return;
+    throw Error("static grid: the entries do not fit 32 bits; use larger cells");
+}
+
+}  // namespace
+
 template <class Real>
 void DeviceGrid<Real>::lay(const StaticGrid& config, const Vec2& worldSize) {
+    fixedListed_ = false;
     if (count_ > 0 && config.cellSize == cellSize_) return;
     const auto [columns, rows] = gridShape(config, worldSize);
     count_ = 0;
@@ -29,28 +39,66 @@ void DeviceGrid<Real>::lay(const StaticGrid& config, const Vec2& worldSize) {
 }
 
 template <class Real>
-GridInput<Real> DeviceGrid<Real>::input() const {
-    return {bodies_.bodies(), bodies_.movingCount(), bodies_.fixedCount(), grid_, columns_,
-            margin_};
+GridInput<Real> DeviceGrid<Real>::moving() const {
+    return {bodies_.bodies(), bodies_.movingCount(), 0, grid_, columns_, margin_};
+}
+
+template <class Real>
+GridInput<Real> DeviceGrid<Real>::fixed() const {
+    return {bodies_.bodies(), 0, bodies_.fixedCount(), grid_, columns_, margin_};
+}
+
+/// Static bodies are in the same cells in every sort.
+template <class Real>
+void DeviceGrid<Real>::listFixed() {
+    fixedEntries_ = 0;
+    if (bodies_.fixedCount() == 0) return;
+    const std::size_t ends = std::size_t(count_) + 1;
+    fixedCounts_.reserve(ends);
+    device_.fill(fixedCounts_, 0, ends);
+    countMembers(device_.launch(), fixed(), fixedCounts_.data(), badRow_.data());
+    device_.copy(offsets_, fixedCounts_, ends);
+    sumCounts(device_.launch(), scratch_.data(), scratchBytes_, offsets_.data(), count_);
+    std::uint32_t total = 0;
+    device_.fetch(&total, entries(), sizeof total);
+    requireCounted(total);
+    fixedMembers_.reserve(total);
+    fixedCells_.reserve(total);
+    placeMembers(device_.launch(), fixed(),
+                 {offsets_.data(), fixedMembers_.data(), fixedCells_.data(), count_, total});
+    fixedEntries_ = total;
+}
+
+template <class Real>
+void DeviceGrid<Real>::prepare(Real margin) {
+    if (room_ == 0) {
+        makeRoom(2 * (std::size_t(bodies_.movingCount()) + bodies_.fixedCount()) + 1024);
+    }
+    if (fixedListed_ && margin == margin_) return;
+    margin_ = margin;
+    fixedListed_ = false;
+    listFixed();
+    fixedListed_ = true;
 }
 
 template <class Real>
 void DeviceGrid<Real>::sort(Real margin) {
-    margin_ = margin;
-    if (room_ == 0)
-        makeRoom(2 * (std::size_t(bodies_.movingCount()) + bodies_.fixedCount()) + 1024);
-    device_.fill(offsets_, 0, count_ + 1);
+    prepare(margin);
+    const std::size_t ends = std::size_t(count_) + 1;
+    if (fixedEntries_ > 0) {
+        device_.copy(offsets_, fixedCounts_, ends);
+    } else {
+        device_.fill(offsets_, 0, ends);
+    }
     device_.fill(badRow_, 0xff, 1);
-    countMembers(device_.launch(), input(), offsets_.data(), badRow_.data());
+    countMembers(device_.launch(), moving(), offsets_.data(), badRow_.data());
     sumCounts(device_.launch(), scratch_.data(), scratchBytes_, offsets_.data(), count_);
     place();
 }
 
 template <class Real>
 void DeviceGrid<Real>::sortAgain(std::uint32_t entries) {
-    if (entries == none) {
-        throw Error("static grid: the entries do not fit 32 bits; use larger cells");
-    }
+    requireCounted(entries);
     makeRoom(entries);
     place();
 }
@@ -65,6 +113,8 @@ void DeviceGrid<Real>::makeRoom(std::size_t entries) {
 
 template <class Real>
 void DeviceGrid<Real>::expect(std::uint32_t entries) {
+    // Only where it differs much, so that most steps are launched as the one before.
+    if (entries + entries / 32 <= room_ && room_ <= entries + entries / 8 + 512) return;
     const std::size_t guess = std::size_t(entries) + entries / 16 + 256;
     room_ = static_cast<std::uint32_t>(
         std::min({guess, members_.capacity(), cellOfEntry_.capacity(), std::size_t(none - 1)}));
@@ -72,8 +122,10 @@ void DeviceGrid<Real>::expect(std::uint32_t entries) {
 
 template <class Real>
 void DeviceGrid<Real>::place() {
-    placeMembers(device_.launch(), input(),
-                 {offsets_.data(), members_.data(), cellOfEntry_.data(), count_, room_});
+    const GridEntries entries{offsets_.data(), members_.data(), cellOfEntry_.data(), count_, room_};
+    placeListed(device_.launch(), {fixedMembers_.data(), fixedCells_.data(), fixedEntries_},
+                entries);
+    placeMembers(device_.launch(), moving(), entries);
 }
 
 template <class Real>

@@ -24,9 +24,14 @@ class DeviceGrid {
     DeviceGrid(DeviceSession& device, const DeviceBodies<Real>& bodies)
         : device_(device), bodies_(bodies) {}
 
-    /// Lays cells over the world. Throws Error if the cell size is impossible.
+    /// Lays cells over the world, for bodies of which the static ones may be others than before.
+    /// Throws Error if the cell size is impossible.
     void lay(const StaticGrid& config, const Vec2& worldSize);
 
+    /// Does what a sort with such a margin needs once, so that it neither allocates nor waits:
+    /// makes room, and lists the cells of the static bodies. Throws Error if 32 bits cannot count
+    /// them.
+    void prepare(Real margin = 0);
     /// Sorts the bodies into the cells, anew; into all that they touch as long as they get on by no
     /// more than a margin, px.
     void sort(Real margin = 0);
@@ -40,6 +45,9 @@ class DeviceGrid {
     /// What the step has told is the guess for the next one.
     void expect(std::uint32_t entries);
 
+    /// Entries that a try is launched for.
+    std::uint32_t room() const { return room_; }
+
     DeviceCells cells() const;
     CellOwnership<Real> ownership() const { return {coordinates_.data(), grid_, margin_}; }
     const std::uint32_t* entries() const { return offsets_.data() + count_; }
@@ -50,7 +58,9 @@ class DeviceGrid {
     void fetch(Cells& cells) const;
 
   private:
-    GridInput<Real> input() const;
+    GridInput<Real> moving() const;
+    GridInput<Real> fixed() const;
+    void listFixed();
     void place();
 
     DeviceSession& device_;
@@ -63,6 +73,12 @@ class DeviceGrid {
     DeviceArray<std::uint32_t> offsets_{device_.budget()};  // of each cell, and the end
     DeviceArray<BodyRef> members_{device_.budget()};
     DeviceArray<std::uint32_t> cellOfEntry_{device_.budget()};
+    // The static bodies, of which a margin has been listed: their number in each cell, and entries.
+    DeviceArray<std::uint32_t> fixedCounts_{device_.budget()};
+    DeviceArray<BodyRef> fixedMembers_{device_.budget()};
+    DeviceArray<std::uint32_t> fixedCells_{device_.budget()};
+    std::uint32_t fixedEntries_ = 0;
+    bool fixedListed_ = false;
     DeviceArray<std::byte> scratch_{device_.budget()};
     std::size_t scratchBytes_ = 0;
     DeviceArray<std::uint32_t> badRow_{device_.budget()};

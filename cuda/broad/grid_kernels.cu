@@ -87,6 +87,17 @@ __global__ void __launch_bounds__(largestBlock)
         });
 }
 
+/// The same for entries whose cells are known.
+__global__ void __launch_bounds__(largestBlock)
+    placeListedKernel(ListedEntries listed, GridEntries entries) {
+    const std::uint32_t i = threadNumber();
+    if (i >= listed.count || entries.ends[entries.cells] > entries.room) return;
+    const std::uint32_t cell = listed.cells[i];
+    const std::uint32_t place = atomicSub(&entries.ends[cell], 1u) - 1;
+    entries.bodies[place] = listed.bodies[i];
+    entries.cellOfEntry[place] = cell;
+}
+
 __global__ void __launch_bounds__(largestBlock)
     layCoordinatesKernel(CellCoordinates* coordinates, std::uint32_t columns, std::uint32_t cells) {
     const std::uint32_t cell = threadNumber();
@@ -140,6 +151,13 @@ void placeMembers(const Launch& launch, const GridInput<Real>& input, const Grid
             <<<blocksFor(input.moving, size), size, 0, launch.stream>>>(input, entries);
     }
     checkLaunch("placeMembersKernel");
+}
+
+void placeListed(const Launch& launch, const ListedEntries& listed, const GridEntries& entries) {
+    if (listed.count == 0) return;
+    const int size = launch.options.blockSize;
+    placeListedKernel<<<blocksFor(listed.count, size), size, 0, launch.stream>>>(listed, entries);
+    checkLaunch("placeListedKernel");
 }
 
 #define QUADRILLE_INSTANTIATE(Real)                                                   \

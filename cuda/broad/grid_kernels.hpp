@@ -48,6 +48,17 @@ struct GridEntries {
     std::uint32_t cells, room;
 };
 
+/// Bodies and cells that they touch.
+struct ListedEntries {
+    const BodyRef* bodies;
+    const std::uint32_t* cells;
+    std::uint32_t count;
+};
+
+/// Writes what is listed to its cells, after all that is written later. Does nothing if there is no
+/// room for all entries, listed or not.
+void placeListed(const Launch& launch, const ListedEntries& listed, const GridEntries& entries);
+
 /// Writes each body to each cell that it touches, the static ones last. Does nothing if there is no
 /// room for all entries.
 template <class Real>

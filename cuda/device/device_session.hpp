@@ -73,6 +73,12 @@ class DeviceSession {
     void fill(const DeviceArray<T>& array, int byte) const {
         fill(array, byte, array.capacity());
     }
+    template <class T>
+    void copy(const DeviceArray<T>& to, const DeviceArray<T>& from, std::size_t count) const {
+        check(cudaMemcpyAsync(to.data(), from.data(), count * sizeof(T), cudaMemcpyDeviceToDevice,
+                              launch().stream),
+              "cudaMemcpyAsync");
+    }
     /// Makes room for elements that are copied to the host as they are, for which a new array must
     /// be zeroed: the gaps between their members are copied, too.
     template <class T>

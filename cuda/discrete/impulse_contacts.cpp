@@ -65,6 +65,7 @@ DeviceContacts<Real> ImpulseContacts<Real>::begin(bool shownOnce, bool keep) {
             .outcomes = keep ? outcomes_.data() : nullptr,
             .capacity = capacity_,
             .heads = heads_.data(),
+            .starts = nullptr,
             .seen = shownOnce ? SeenPairs{} : forgetSeenPairs(),
             .counts = bodies_.counts()};
 }
@@ -80,8 +81,9 @@ void ImpulseContacts<Real>::resolve(const DeviceContacts<Real>& list,
 template <class Real>
 void ImpulseContacts<Real>::end(const StepCounts& counts) {
     listsEmpty_ = true;
+    // Only where it differs much, so that most steps are launched as the one before.
     const auto found = static_cast<std::uint32_t>(counts.contacts);
-    expected_ = std::max<std::uint32_t>(found + found / 4, 64);
+    if (found > expected_ || expected_ / 2 > found + 256) expected_ = found + found / 4 + 128;
 }
 
 template <class Real>

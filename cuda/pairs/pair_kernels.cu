@@ -40,6 +40,11 @@ struct ToContacts {
         // creation.
         list.nextA[i] = atomicExch(&list.heads[c.a], i);
         if (!c.b.isStatic()) list.nextB[i] = atomicExch(&list.heads[c.b.row()], i);
+        if (list.starts == nullptr) return;
+        list.starts[c.a] = placeBefore<Real>(bodies.moving, c.a, dt);
+        if (!c.b.isStatic()) {
+            list.starts[c.b.row()] = placeBefore<Real>(bodies.moving, c.b.row(), dt);
+        }
     }
 
   private:
@@ -123,8 +128,6 @@ template <class Real, class Found>
 __global__ void __launch_bounds__(largestBlock)
     comparePerBody(Bodies<Real> bodies, DeviceCells cells, CellOwnership<Real> ownership,
                    Real inflation, Found found, StepCounts* counts) {
-    // Several pairs are compared before one is handed out, so that their loads overlap.
-    constexpr std::uint32_t together = 8;
     extern __shared__ FoundPair foundPairs[];
     FoundPairs waiting(foundPairs + threadIdx.x / 32 * FoundPairs::room);
     const auto handOutPair = [&](const FoundPair& pair) {
@@ -147,7 +150,8 @@ __global__ void __launch_bounds__(largestBlock)
         there ? (members - 1) / 2 + (members % 2 == 0 && 2 * i < members) : 0;
     const auto partner = [&](std::uint32_t k) { return i + k < members ? i + k : i + k - members; };
     const std::uint32_t most = __reduce_max_sync(0xffff'ffffu, partners);
-    for (std::uint32_t start = 1; start <= most; start += together) {
+    // Several pairs are compared before one is handed out, so that their loads overlap.
+    const auto compare = [&]<std::uint32_t together>(std::uint32_t start) {
         std::uint32_t hits = 0;
 #pragma unroll
         for (std::uint32_t l = 0; l < together; ++l) {
@@ -163,6 +167,12 @@ __global__ void __launch_bounds__(largestBlock)
             const std::uint32_t j = partner(start + __ffs(static_cast<int>(hits)) - 1);
             waiting.add(hits != 0, {cell, first + min(i, j), first + max(i, j)}, handOutPair);
         }
+        return start + together;
+    };
+    for (std::uint32_t start = 1; start <= most;) {
+        start = most - start < 2   ? compare.template operator()<2>(start)
+                : most - start < 4 ? compare.template operator()<4>(start)
+                                   : compare.template operator()<8>(start);
     }
     waiting.flush(handOutPair);
     if (counts != nullptr) addFromBlock(&counts->tested, tested);

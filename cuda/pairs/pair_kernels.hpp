@@ -9,6 +9,7 @@
 #include "collision/rules/contact_order.hpp"
 #include "collision/rules/fine_grid.hpp"
 #include "collision/rules/impulse_contact.hpp"
+#include "collision/rules/keep_out.hpp"
 #include "cuda/bodies/body_kernels.hpp"
 #include "cuda/device/launch.hpp"
 
@@ -71,6 +72,7 @@ struct DeviceContacts {
     ContactOutcome<Real>* outcomes;  ///< null if nobody wants to know
     std::uint32_t capacity;
     std::uint32_t* heads;  ///< of a moving body: the first of its contacts; `none` between steps
+    Place<Real>* starts;   ///< of a moving body with contacts: where it was; null if nobody asks
     SeenPairs seen;
     StepCounts* counts;
 };

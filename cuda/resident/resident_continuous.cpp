@@ -260,8 +260,9 @@ bool ResidentContinuous<Real>::partition(double now, double length, Step<Real>& 
                           .largest = largest_,
                           .gravity = 0});
     const Real margin = std::max(static_cast<Real>(reach), std::numeric_limits<Real>::min());
-    if (!(margin_ > 0) || reach > 1.25 * margin_ || reach < 0.6 * margin_) {
-        margin_ = reach;
+    // Somewhat wider, so that it lasts: for another one, static bodies are listed anew.
+    if (!(margin_ >= margin) || reach < 0.6 * margin_) {
+        margin_ = static_cast<Real>(1.02) * margin;
         grid_.lay(gridFor(config_.partitioner, rows, extent_ + 2 * reach, worldSize_), worldSize_);
     }
 
@@ -269,7 +270,7 @@ bool ResidentContinuous<Real>::partition(double now, double length, Step<Real>& 
     device_.begin(Phase::Partition, step.clock);
     device_.fill(survey_, 0, 1);
     placeAll(launch, motion(), rows, now, survey_.data(), sketches_.data());
-    grid_.sort(margin);
+    grid_.sort(margin_);
     bodies_.zeroCounts();
     collectCandidates(launch, bodies_.bodies(), grid_.cells(), grid_.ownership(),
                       candidateInflation(margin, static_cast<Real>(largest_)),

@@ -12,8 +12,8 @@ namespace quadrille::cuda {
 template <class Real>
 double meanExtent(const BodyView<Real>& bodies);
 
-/// The grid that the configuration names. With another partitioner, cells of twice the mean extent
-/// of a body, in px, with what boxes are made larger by: so a body touches few, and few bodies that
+/// The grid that the configuration names. With another partitioner, cells of twice the extent of a
+/// body, in px, with what boxes are made larger by: so a body touches few, and few bodies that
 /// do not overlap fit into one, however crowded a part of the world is. In a sparse world they are
 /// larger, up to a quarter of a body in each, and along an axis there are no more than a grid can
 /// have.

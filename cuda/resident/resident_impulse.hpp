@@ -7,6 +7,7 @@
 #include "cuda/bodies/device_bodies.hpp"
 #include "cuda/broad/device_grid.hpp"
 #include "cuda/device/device_session.hpp"
+#include "cuda/device/replay.hpp"
 #include "cuda/discrete/impulse_contacts.hpp"
 #include "cuda/resident/device_static_map.hpp"
 #include "cuda/resident/resident_kernels.hpp"
@@ -30,7 +31,17 @@ class ResidentImpulse final : public ResidentPipeline<Real> {
     std::size_t bytes() const override;
 
   private:
-    ResidentCounts tryStep(Step<Real>& step);
+    /// What launches depend on, beside what was loaded.
+    struct Shape {
+        std::uint32_t contacts, contactRoom, entryRoom;
+        bool keepsContacts;
+
+        bool operator==(const Shape&) const = default;
+    };
+
+    DeviceContacts<Real> begin(bool keepContacts);
+    void enqueueStep(const DeviceContacts<Real>& list, const Step<Real>& step);
+    void enqueueTry(const DeviceContacts<Real>& list, const Step<Real>& step);
 
     SimulationConfig config_;
     Vec2 worldSize_;
@@ -41,6 +52,8 @@ class ResidentImpulse final : public ResidentPipeline<Real> {
     DeviceStaticMap<Real> map_{device_};
     DeviceArray<Place<Real>> starts_{device_.budget()};  // by rows, of bodies with contacts
     PinnedArray<ResidentCounts> hostCounts_;
+    Replay replay_;
+    Shape shape_{};  // of the last step
     std::vector<ContactRecord> records_;
     Cells cells_;
     bool cellsHere_ = true;  // as of the last step

@@ -18,23 +18,13 @@ struct ResidentCounts {
     std::uint32_t badRow;   ///< the lowest whose position is not finite, else `none`
 };
 
-/// Notes by rows where the bodies with contacts stood when the step began; before the contacts are
-/// resolved.
+/// Keeps the touched bodies out of the static boxes of a map, where the contacts have noted where
+/// bodies were; makes the lists of contacts of these bodies empty again, and writes the counts to
+/// the host's page-locked memory.
 template <class Real>
-void noteStarts(const Launch& launch, const Bodies<Real>& bodies,
-                const DeviceContacts<Real>& contacts, Real dt, Place<Real>* starts,
-                std::uint32_t expected);
-
-/// Keeps the touched bodies out of static boxes.
-template <class Real>
-void keepTouchedOut(const Launch& launch, const Bodies<Real>& bodies, const TouchedBodies& touched,
-                    const StaticMapView<Real>& map, const Place<Real>* starts,
-                    std::uint32_t expected);
-
-/// Makes the lists of contacts of the touched bodies empty again, and writes the counts to the
-/// host's page-locked memory.
-void finishStep(const Launch& launch, std::uint32_t* heads, const TouchedBodies& touched,
-                const std::uint32_t* entries, const std::uint32_t* badRow, ResidentCounts* result,
-                std::uint32_t expected);
+void finishStep(const Launch& launch, const Bodies<Real>& bodies,
+                const DeviceContacts<Real>& contacts, const TouchedBodies& touched,
+                const StaticMapView<Real>& map, const std::uint32_t* entries,
+                const std::uint32_t* badRow, ResidentCounts* result, std::uint32_t expected);
 
 }  // namespace quadrille::cuda
