@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <string>
@@ -82,6 +83,33 @@ TEST(ContinuousEvents, ABodyWedgedBetweenWallsNeitherLoopsNorGainsEnergy) {
     };
     EXPECT_EQ(state(1.0 / 60), state(1.0 / 16));
     EXPECT_EQ(state(1.0 / 60), state(1.0 / 4));
+}
+
+// A heavy block makes light bodies many times as fast as the others: all get wider bounds, for a
+// shorter time.
+TEST(ContinuousEvents, AHeavyBlockAmongSlowBodiesMakesNoMoreCellsThanTheyNeed) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < 900; ++i) {
+        const double turn = 0.7 * i;
+        bodies.push_back({{20.0 * (i % 30), 20.0 * (i / 30)},
+                          {15 * std::cos(turn), 15 * std::sin(turn)},
+                          {10, 10}});
+    }
+    bodies.push_back({{-100, 300}, {400, -200}, {110, 110}, 500});
+    for (const double side : {-1.0, 1.0}) {
+        bodies.push_back({{290 + side * 520, 290}, {0, 0}, {20, 2000}, 1, true});
+        bodies.push_back({{290, 290 + side * 520}, {0, 0}, {2000, 20}, 1, true});
+    }
+    Simulation sim = accuracy::simulate(exact, bodies);
+    std::uint64_t pairs = 0, collisions = 0;
+    for (int i = 0; i < 60; ++i) {
+        const StepReport report = sim.step();
+        pairs += report.pairsTested;
+        collisions += report.collisions;
+        ASSERT_LT(sim.cells().size(), 2 * bodies.size()) << "step " << i;
+    }
+    EXPECT_GT(collisions, 1000u);
+    EXPECT_LT(pairs, 60 * 40 * bodies.size());
 }
 
 TEST(ContinuousEvents, TiesGoByTheHashOfThePair) {

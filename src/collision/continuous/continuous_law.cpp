@@ -271,8 +271,11 @@ double ContinuousLaw<Real, Path>::areaOf(std::size_t rows, double life) const {
     const auto count = static_cast<double>(rows);
     const double size = sizeSum_ / count;
     const double gain = gainOf();
-    const double speeds = gain * (speedSum_ + count * gravityNow_ * life);
-    const double squares = gain * gain * squareSum_ + 2 * gain * gravityNow_ * life * speeds;
+    // All have the common bound at least.
+    const double sum = std::max(speedSum_, count * common_);
+    const double squareSum = std::max(squareSum_, count * common_ * common_);
+    const double speeds = gain * (sum + count * gravityNow_ * life);
+    const double squares = gain * gain * squareSum + 2 * gain * gravityNow_ * life * speeds;
     return count * size * size + 4 * size * life * speeds + 4 * life * life * squares;
 }
 
@@ -322,24 +325,24 @@ std::optional<Reach<Real>> ContinuousLaw<Real, Path>::reach(const LawBodies<Real
     survey(bodies);
     const double elapsed = now - partitionTime_;
     eventRate_ = elapsed > 0 ? static_cast<double>(eventsSince_) / elapsed : 0;
-    life_ = chooseLife(m.size(), to - now);
-    const double life = life_;
-    // Bounds that events break again and again are too narrow.
+    // Bounds that events break again and again are too narrow. Few that are much faster than the
+    // others have bounds of their own, or all boxes would grow with the fastest.
     outlier_ = outran_ ? std::min(4 * outlier_, 1e9) : std::max(outlier_ / 2, leastOutlier);
     outran_ = false;
+    const double typical = outlier_ * speedSum_ / static_cast<double>(m.size());
+    const bool outliers = fastest_ > typical;
+    common_ = outliers ? typical : fastest_;
+    life_ = chooseLife(m.size(), to - now);
+    const double life = life_;
     editsSince_ = 0;
     horizon_ = now + life;
     partitionTime_ = now;
     eventsSince_ = 0;
 
-    // Few that are much faster than the others have bounds of their own, or all boxes would grow
-    // with the fastest.
     const double gain = gainOf();
     const double gained = gravityNow_ * life;
-    const double typical = outlier_ * speedSum_ / static_cast<double>(m.size());
-    const bool outliers = fastest_ > typical;
     const auto boundOf = [&](double speed) { return gain * (speed + gained); };
-    bounds_.common = boundOf(outliers ? typical : fastest_);
+    bounds_.common = boundOf(common_);
     bounds_.own = nullptr;
     farthest_ += boundOf(fastest_) * life;
     const auto wayAt = [&](double bound) {

@@ -99,6 +99,7 @@ class ContinuousLaw final : public ContactLaw<Real> {
     double life_ = 0;                // s, of the last partition, if no event ends it before
     double shortestLife_ = 0;        // s, that it could have had
     double outlier_ = 0;             // times the mean speed; faster bodies have bounds of their own
+    double common_ = 0;              // px/s, that the bounds of all others are for
     bool outran_ = false;            // an event made a body faster than its bound
     int editsSince_ = 0;             // partitionTime_, steps before which bodies were edited
     double density_ = 0;             // candidate pairs a px^2 around a body
