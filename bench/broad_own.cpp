@@ -38,9 +38,12 @@ class Own final : public BroadPhase {
     void find(const Boxes& boxes, Pairs& pairs) override {
         world_.visitBodies([&]<class Real>(const BodyView<Real>& bodies) {
             if constexpr (std::is_same_v<Real, double>) {
-                partitioner_->update(bodies, dt_, 0.0);
+                // The bodies moved, as in a run: nobody put them elsewhere.
+                BodyView<double> moved = bodies;
+                moved.revision = moved.layout = 1;
+                partitioner_->update(moved, dt_, 0.0);
                 narrow_.find(
-                    bodies, partitioner_->partition(),
+                    moved, partitioner_->partition(),
                     [&](MovingPair p) { pairs.emplace_back(p.a, p.b); },
                     [&](StaticPair p) {
                         pairs.emplace_back(p.a, static_cast<std::uint32_t>(boxes.moving) + p.fixed);
