@@ -1,8 +1,10 @@
-// The cost of a step per body over the number of bodies, for each partitioner, at two densities.
+// The cost of a step of `impulse` per body over the number of bodies, for each partitioner, at two
+// densities; and what it costs to check, hash, save and load a world.
 
 #include <benchmark/benchmark.h>
 #include <cstdint>
 #include <ctime>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -28,9 +30,10 @@ void stepScene(benchmark::State& state, const std::string& scene,
     SceneOptions options;
     options.entities = bodies;
     Scene loaded = loadScene(QUADRILLE_BENCH_SCENES_DIR "/" + scene + ".toml", options);
-    Simulation simulation(
-        std::move(loaded.world),
-        {.partitioner = partitioner, .precision = precision, .step = loaded.step});
+    Simulation simulation(std::move(loaded.world), {.partitioner = partitioner,
+                                                    .law = Law::Impulse,
+                                                    .precision = precision,
+                                                    .step = loaded.step});
     simulation.run(warmupSteps);
 
     std::uint64_t contacts = 0, rebuilds = 0;
@@ -62,6 +65,30 @@ void registerStep(const std::string& scene, const PartitionerConfig& partitioner
         ->Unit(benchmark::kMillisecond);
 }
 
+/// `run(simulation, file)` on a world of that many bodies; a snapshot of it lies in the file.
+template <class Run>
+void registerOnce(const std::string& label, Run run) {
+    const auto benchmarkOf = [run](benchmark::State& state) {
+        SceneOptions options;
+        options.entities = static_cast<std::uint64_t>(state.range(0));
+        Scene loaded = loadScene(QUADRILLE_BENCH_SCENES_DIR "/dense.toml", options);
+        const Simulation simulation(std::move(loaded.world), {.step = loaded.step});
+        const auto file = std::filesystem::temp_directory_path() / "quadrille_micro.snapshot";
+        saveSnapshot(file, simulation, "dense", 1);
+        const std::clock_t start = std::clock();
+        for (auto _ : state) run(simulation, file);
+        const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+        state.counters["ns_per_body"] =
+            1e9 * seconds / double(state.iterations()) / double(state.range(0));
+        std::filesystem::remove(file);
+    };
+    benchmark::RegisterBenchmark(label.c_str(), benchmarkOf)
+        ->Arg(10'000)
+        ->Arg(100'000)
+        ->Iterations(20)
+        ->Unit(benchmark::kMillisecond);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,6 +102,19 @@ int main(int argc, char** argv) {
             registerStep(scene, partitioner, Precision::Float, 100'000);
         }
     }
+    using std::filesystem::path;
+    registerOnce("validate", [](const Simulation& simulation, const path&) {
+        benchmark::DoNotOptimize(simulation.world().validate());
+    });
+    registerOnce("state-hash", [](const Simulation& simulation, const path&) {
+        benchmark::DoNotOptimize(stateHash(simulation.world()));
+    });
+    registerOnce("save", [](const Simulation& simulation, const path& file) {
+        saveSnapshot(file, simulation, "dense", 1);
+    });
+    registerOnce("load", [](const Simulation&, const path& file) {
+        benchmark::DoNotOptimize(loadSnapshot(file));
+    });
     for (const auto& [key, value] : bench::describeMachine()) {
         benchmark::AddCustomContext(key, value);
     }

@@ -7,6 +7,7 @@
 
 #include <quadrille/bodies.hpp>
 #include <quadrille/components.hpp>
+#include <quadrille/config.hpp>
 #include <quadrille/partitioner_config.hpp>
 #include <quadrille/scene.hpp>
 
@@ -30,7 +31,7 @@ struct PeerKind {
     std::function<std::unique_ptr<Peer>(const Scene&)> make;
 };
 
-PeerKind quadrillePeer(const PartitionerConfig& partitioner, Precision precision);
+PeerKind quadrillePeer(const PartitionerConfig& partitioner, Law law, Precision precision);
 PeerKind box2dPeer();
 /// One with its default tree, one with its spatial hash.
 std::vector<PeerKind> chipmunkPeers();

@@ -24,9 +24,12 @@ World copyBodies(const World& world) {
 
 class QuadrillePeer final : public Peer {
   public:
-    QuadrillePeer(const Scene& scene, const PartitionerConfig& partitioner, Precision precision)
-        : simulation_(copyBodies(scene.world),
-                      {.partitioner = partitioner, .precision = precision, .step = scene.step}) {}
+    QuadrillePeer(const Scene& scene, const PartitionerConfig& partitioner, Law law,
+                  Precision precision)
+        : simulation_(copyBodies(scene.world), {.partitioner = partitioner,
+                                                .law = law,
+                                                .precision = precision,
+                                                .step = scene.step}) {}
 
     void step() override { simulation_.step(); }
 
@@ -45,11 +48,11 @@ class QuadrillePeer final : public Peer {
 
 }  // namespace
 
-PeerKind quadrillePeer(const PartitionerConfig& partitioner, Precision precision) {
-    return {.name = "Quadrille " + std::string(name(precision)),
-            .settings = "impulse; " + specOf(partitioner),
+PeerKind quadrillePeer(const PartitionerConfig& partitioner, Law law, Precision precision) {
+    return {.name = "Quadrille " + std::string(name(law)) + " " + std::string(name(precision)),
+            .settings = specOf(partitioner),
             .make = [=](const Scene& scene) {
-                return std::make_unique<QuadrillePeer>(scene, partitioner, precision);
+                return std::make_unique<QuadrillePeer>(scene, partitioner, law, precision);
             }};
 }
 

@@ -60,8 +60,9 @@ void addOptions(CLI::App& app, Options& options) {
 /// The first one is what the others are compared with.
 std::vector<PeerKind> peerKinds(const std::string& partitioner) {
     const PartitionerConfig config = parsePartitioner(partitioner);
-    std::vector<PeerKind> kinds = {quadrillePeer(config, Precision::Double),
-                                   quadrillePeer(config, Precision::Float)};
+    std::vector<PeerKind> kinds = {quadrillePeer(config, Law::Impulse, Precision::Double),
+                                   quadrillePeer(config, Law::Impulse, Precision::Float),
+                                   quadrillePeer(config, Law::Continuous, Precision::Double)};
 #if defined(QUADRILLE_HAS_BOX2D)
     kinds.push_back(box2dPeer());
 #endif
@@ -107,7 +108,7 @@ class Contestant {
     }
 
     void run(std::size_t steps) {
-        timeSteps(steps, milliseconds_, [&] { peer_->step(); });
+        timeSteps<ProcessorClock>(steps, milliseconds_, [&] { peer_->step(); });
         readState();
         maxOverlap_ = std::max(maxOverlap_, overlap(probe_).max);
     }

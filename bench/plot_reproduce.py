@@ -38,7 +38,7 @@ def save(figure, path):
 
 
 def speedup(folder):
-    """Figure 5: milliseconds a frame over the bodies, ours beside the report's program."""
+    """Milliseconds a frame over the bodies, ours beside the report's program."""
     table = [r for r in rows(folder / "speedup.csv") if r["scene"] == "balanced"]
     figure, panels = plt.subplots(1, 2, figsize=(11.5, 4.6), sharey=True)
     for axes, law in zip(panels, ("baseline", "impulse")):
@@ -63,6 +63,30 @@ def speedup(folder):
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.91, 0.5), frameon=False,
                   fontsize=9)
     save(figure, folder / "speedup.png")
+
+
+def figure5(folder):
+    """Figure 5 as it is drawn in the report: how many times faster than the sequential grid."""
+    table = [r for r in rows(folder / "speedup.csv") if r["scene"] == "balanced"]
+    figure, panels = plt.subplots(1, 2, figsize=(11.5, 4.6), sharey=True)
+    for axes, law in zip(panels, ("baseline", "impulse")):
+        for scheme in dict.fromkeys(r["scheme"] for r in table):
+            kind, resolver = scheme.split(", ")
+            line = "-" if resolver == "cuda" else "--"
+            for column, look in (("speedup_over_grid", {"marker": "o", "label": scheme}),
+                                 ("report_speedup", {"marker": "x", "alpha": 0.45})):
+                points = [(int(r["bodies"]), float(r[column])) for r in table
+                          if r["scheme"] == scheme and r["law"] == law and r[column] != "-"]
+                if points:
+                    axes.plot(*zip(*points), color=COLOURS[kind], linestyle=line, linewidth=1.2,
+                              markersize=4, **look)
+        style(axes, "bodies", "times faster than the sequential grid" if law == "baseline" else "",
+              f"balanced scene, law {law}")
+    panels[0].plot([], [], color="#888888", marker="x", linewidth=1, label="the report's figure 5")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.91, 0.5), frameon=False,
+                  fontsize=9)
+    save(figure, folder / "figure5.png")
 
 
 def cells(folder):
@@ -131,6 +155,7 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     speedup(folder)
+    figure5(folder)
     if (folder / "cells.csv").exists():
         cells(folder)
     if (folder / "profile.csv").exists():

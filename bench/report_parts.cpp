@@ -200,6 +200,7 @@ Table measurePolicies(const ReportPlan& plan) {
         for (const Measurement& m : measure(sceneRuns, {.warmup = 0, .repeats = plan.repeats})) {
             Scene fresh = openScene(scene.file, scene.entities);
             Simulation simulation(std::move(fresh.world), {.partitioner = m.variant.partitioner,
+                                                           .law = m.variant.law,
                                                            .step = fresh.step,
                                                            .countMissedPairs = true});
             std::uint64_t overlapping = 0, missed = 0;

@@ -43,6 +43,13 @@ if(NOT MSVC)
 endif()
 if(QUADRILLE_NATIVE AND NOT MSVC)
   target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=native>)
+  # g++ would fetch the bodies of pairs by gather instructions, which are slower than loads one by one.
+  include(CheckCXXCompilerFlag)
+  set(no_gather -mtune-ctrl=^use_gather_2parts,^use_gather_4parts,^use_gather)
+  check_cxx_compiler_flag(${no_gather} QUADRILLE_NO_GATHER)
+  if(QUADRILLE_NO_GATHER)
+    target_compile_options(quadrille_compiler INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${no_gather}>)
+  endif()
 endif()
 if(QUADRILLE_WARNINGS_AS_ERRORS)
   target_compile_options(quadrille_compiler INTERFACE

@@ -1,5 +1,6 @@
 # Installs the library, its headers, the scenes and the application, so that
-# find_package(quadrille) gives quadrille::core.
+# find_package(quadrille) gives quadrille::core. The component `program` is what runs scenes,
+# `development` what programs are built with.
 option(QUADRILLE_INSTALL "Add the rules that install Quadrille" ${PROJECT_IS_TOP_LEVEL})
 if(NOT QUADRILLE_INSTALL)
   return()
@@ -12,16 +13,22 @@ set_target_properties(quadrille_core PROPERTIES
   SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
   WINDOWS_EXPORT_ALL_SYMBOLS ON)
 
+# A shared library is needed by either, and comes with the program.
 install(TARGETS quadrille_core EXPORT quadrilleTargets
-        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program
+                NAMELINK_COMPONENT development
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/quadrille
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/quadrille
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/quadrille COMPONENT program
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv")
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/quadrille COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libquadrille-dev COMPONENT development)
 
 if(TARGET collisionStress)
   # The program finds a shared library beside itself, wherever the prefix is moved to. In the build
@@ -38,7 +45,22 @@ if(TARGET collisionStress)
   endif()
   set_target_properties(collisionStress PROPERTIES
     BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH_USE_LINK_PATH ON)
-  install(TARGETS collisionStress RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS collisionStress EXPORT quadrilleProgram
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+
+  # The program knows its options; one for another machine cannot be asked here.
+  if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
+    set(manual ${PROJECT_BINARY_DIR}/man/collisionStress.1)
+    set(completion ${PROJECT_BINARY_DIR}/bash-completion/collisionStress)
+    file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man ${PROJECT_BINARY_DIR}/bash-completion)
+    add_custom_command(OUTPUT ${manual} ${completion} DEPENDS collisionStress VERBATIM
+      COMMAND collisionStress --generate man > ${manual}
+      COMMAND collisionStress --generate complete-bash > ${completion})
+    add_custom_target(quadrille_option_lists ALL DEPENDS ${manual} ${completion})
+    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+    install(FILES ${completion} COMPONENT program
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  endif()
 endif()
 
 # Who links a static library links its private libraries too, so they must be found again.
@@ -53,7 +75,7 @@ endif()
 
 if(TARGET quadrille_cuda)
   install(TARGETS quadrille_cuda EXPORT quadrilleTargets
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   if(core_type STREQUAL STATIC_LIBRARY)
     string(APPEND QUADRILLE_PRIVATE_DEPENDENCIES "find_dependency(CUDAToolkit)\n")
   endif()
@@ -61,10 +83,23 @@ endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/quadrille-config.cmake.in
-  ${PROJECT_BINARY_DIR}/quadrille-config.cmake INSTALL_DESTINATION ${package_dir})
+  ${PROJECT_BINARY_DIR}/quadrille-config.cmake INSTALL_DESTINATION ${package_dir}
+  PATH_VARS CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/quadrille-config-version.cmake
   COMPATIBILITY SameMinorVersion)
-install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION ${package_dir})
+install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION ${package_dir}
+        COMPONENT development)
+if(TARGET collisionStress)
+  install(EXPORT quadrilleProgram NAMESPACE quadrille:: DESTINATION ${package_dir}
+          COMPONENT development)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/quadrille-config.cmake
               ${PROJECT_BINARY_DIR}/quadrille-config-version.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
+
+if(PROJECT_IS_TOP_LEVEL)
+  add_custom_target(uninstall VERBATIM
+    COMMAND ${CMAKE_COMMAND} -DBUILD_DIR=${PROJECT_BINARY_DIR}
+            -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)
+  include(QuadrillePackages)
+endif()

@@ -18,6 +18,7 @@
 
 #include "app/exit_code.hpp"
 #include "app/one_of.hpp"
+#include "app/option_list.hpp"
 #include "app/scene_catalog.hpp"
 #include "app/standard_streams.hpp"
 #include "system/whole_file.hpp"
@@ -36,6 +37,7 @@ struct RawOptions {
     std::string law, precision;
     std::string resolver{name(ResolverKind::Auto)};
     std::string cudaThread = "body";
+    std::string generate;
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -311,6 +313,11 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->group("Output");
     app.add_flag("--list", options.list, "List scenes, partitioners, resolvers and laws, and exit")
         ->group("Output");
+    app.add_option("--generate", raw.generate,
+                   "Print these options as a manual page or as a completion script, and exit")
+        ->check(oneOf({"man", "complete-bash"}))
+        ->type_name("man|complete-bash")
+        ->group("Output");
     declareWindowOptions(app, options.window);
     app.footer(
         "Results go to stdout, messages to stderr.\n"
@@ -423,6 +430,10 @@ ParsedOptions parseOptions(int argc, const char* const* argv) {
         const auto unknown = asked ? std::nullopt : refuseUnknownOptions(app);
         app.exit(unknown ? *unknown : error, std::cout, std::cerr);
         return {.options = std::nullopt, .exitCode = asked ? done : usageError};
+    }
+    if (!raw.generate.empty()) {
+        raw.generate == "man" ? writeManual(std::cout, app) : writeBashCompletion(std::cout, app);
+        return {.options = std::nullopt, .exitCode = done};
     }
     interpret(options, raw);
     return {.options = std::move(options), .exitCode = done};

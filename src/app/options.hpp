@@ -53,7 +53,7 @@ struct Options {
 };
 
 /// Either options, or the exit code of a program that has already said what there was to say
-/// (--help, --version, a mistake).
+/// (--help, --version, --generate, a mistake).
 struct ParsedOptions {
     std::optional<Options> options;
     int exitCode = 0;
