@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include <quadrille/quadrille.hpp>
@@ -15,13 +16,15 @@ struct Run {
     std::uint64_t seed;
     ResolverKind requestedResolver;
     Simulation simulation;
+    std::unique_ptr<Run> beside;  ///< what it is compared with
 };
 
 /// Says on stderr that a device failed and what runs instead.
 void warnOfFallback(const Run& run);
 
-/// Loads the scene or the snapshot and makes the simulation that the options ask for. A resolver
-/// that cannot run is replaced by the sequential one, with a warning on stderr.
+/// Loads the scene or the snapshot and makes the simulation that the options ask for, and the one
+/// beside it. A resolver that cannot run is replaced by the sequential one, with a warning on
+/// stderr.
 Run setUp(const Options& options);
 
 /// The report's policy misses pairs; how many is part of its result, and is counted.

@@ -21,7 +21,7 @@ TEST(Help, ListsEveryOption) {
           "--save",        "--load",         "--screenshot",   "--no-fallback", "--list",
           "--version",     "--help",         "--window-size",  "--size",        "--offscreen",
           "--hide-panels", "--paused",       "--speed",        "--show",        "--color-by",
-          "--no-vsync",    "--force-memory", "--set",          "--save-every"}) {
+          "--no-vsync",    "--force-memory", "--set",          "--save-every",  "--compare"}) {
         EXPECT_TRUE(contains(result.out, option)) << option;
     }
 }

@@ -180,7 +180,7 @@ TEST(Usage, MissingValues) {
           "--max-depth",    "--max-per-cell", "--rebuild",    "--resolver",    "--threads",
           "--law",          "--precision",    "--dt",         "--restitution", "--duration",
           "--report-every", "--json",         "--csv",        "--dump-state",  "--dump-events",
-          "--save",         "--load",         "--screenshot", "--save-every"}) {
+          "--save",         "--load",         "--screenshot", "--save-every",  "--compare"}) {
         expectUsageError({option}, {option});
     }
     expectRefusal({"--headless", "--frames"}, 2, {"--frames"});
