@@ -39,6 +39,8 @@ class RunBeside {
     /// Makes the steps that the first run has made already, after one of its steps.
     void follow();
 
+    /// Steps of the first run from one common time to the next.
+    std::uint64_t stepsPerMeeting() const { return firstPerMeeting_; }
     /// Whether both have arrived at one time.
     bool met() const { return firstSteps_ % firstPerMeeting_ == 0; }
 

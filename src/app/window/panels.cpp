@@ -3,18 +3,29 @@
 #include <algorithm>
 #include <imgui.h>
 
+#include "app/window/comparison_view.hpp"
+
 namespace quadrille::app {
 
 namespace {
 
 constexpr double columnPoints = 300;
 
-}  // namespace
-
-ScreenRect worldRect(const ViewState& view, double scale, int width, int height) {
+ScreenRect besidePanels(const ViewState& view, double scale, int width, int height) {
     const double column = view.panels ? columnPoints * scale : 0;
     // However narrow the window is, there is a view to calculate with.
     return {column, 0, std::max(1.0, width - column), std::max(1.0, double(height))};
+}
+
+}  // namespace
+
+ScreenRect worldRect(const ViewState& view, double scale, int width, int height) {
+    if (view.compared) return comparisonLayout(view, scale, width, height).views[0];
+    return besidePanels(view, scale, width, height);
+}
+
+ComparisonLayout comparisonLayout(const ViewState& view, double scale, int width, int height) {
+    return layOutComparison(besidePanels(view, scale, width, height), *view.compared, scale);
 }
 
 bool sectionHeader(const char* label) {
@@ -23,6 +34,7 @@ bool sectionHeader(const char* label) {
 
 void showPanels(const PanelContext& context) {
     showOverlay(context);
+    if (context.view.compared) showComparison(context);
     if (context.view.panels) {
         ImGui::SetNextWindowPos({0, 0});
         ImGui::SetNextWindowSize({float(columnPoints * context.scale), float(context.height)});
@@ -31,7 +43,11 @@ void showPanels(const PanelContext& context) {
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
         ImGui::PushItemWidth(float(-104 * context.scale));
         showRunPanel(context);
-        showCollisionsPanel(context);
+        if (context.view.compared) {
+            showComparisonPanel(context);
+        } else {
+            showCollisionsPanel(context);
+        }
         showDisplayPanel(context);
         showCountersPanel(context);
         showFrameTimePanel(context);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/window/camera.hpp"
+#include "app/window/comparison_layout.hpp"
 #include "app/window/measures.hpp"
 #include "app/window/phase_history.hpp"
 #include "app/window/view_state.hpp"
@@ -19,8 +20,12 @@ struct PanelContext {
     int width, height;  ///< of the window, points
 };
 
-/// The part of the window that the panels leave to the world.
+/// The part of the window that the panels leave to the world; of two that are compared, to the
+/// first.
 ScreenRect worldRect(const ViewState& view, double scale, int width, int height);
+
+/// How a comparison divides what the panels leave; only where there is one.
+ComparisonLayout comparisonLayout(const ViewState& view, double scale, int width, int height);
 
 /// Builds all panels of a picture.
 void showPanels(const PanelContext& context);

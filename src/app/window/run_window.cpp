@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <epoxy/gl.h>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "app/window/body_colors.hpp"
 #include "app/window/box_layer.hpp"
 #include "app/window/cell_layer.hpp"
+#include "app/window/comparison_layer.hpp"
 #include "app/window/gui.hpp"
 #include "app/window/input.hpp"
 #include "app/window/panels.hpp"
@@ -57,7 +59,12 @@ class WindowRun {
     void finishPhase(ShowPhase phase);
     void recordPhases();
     void updateTitle();
+    void setViewport(const Viewport& viewport) const;
     ScreenRect rect() const { return worldRect(view_, gui_.scale(), size_.width, size_.height); }
+    /// Where worlds are shown.
+    std::vector<ScreenRect> views() const;
+    /// Of the second run.
+    Viewport secondViewport() const { return {view_.camera, views()[1], size_.pixelRatio()}; }
 
     const Options& options_;
     Workbench bench_;  // first, so that a bad scene opens no window
@@ -67,6 +74,7 @@ class WindowRun {
     BoxLayer boxes_;
     CellLayer cells_;
     BodyColors colors_;
+    std::optional<ComparisonLayer> comparison_;
     Input input_;
     std::vector<SDL_Event> events_;  // of this picture
     Measures measures_;
@@ -92,6 +100,7 @@ WindowRun::WindowRun(const Options& options)
     view_.colorBy = options.window.colorBy;
     view_.vsync = options.window.vsync;
     view_.panels = options.window.panels;
+    if (options.beside) comparison_.emplace();
     vsync_ = view_.vsync;
     hasVsync_ = window_.setVsync(vsync_);
     bench_.watchContacts(view_.overlays.contacts);
@@ -108,7 +117,8 @@ int WindowRun::loop() {
         phases_ = {};
         takeEvents();
         beginPanels();
-        for (const SDL_Event& event : events_) input_.handle(event, rect(), gui_, bench_, view_);
+        if (comparison_) view_.compared = bench_.simulation().world().config().size;
+        for (const SDL_Event& event : events_) input_.handle(event, views(), gui_, bench_, view_);
         bench_.advance(elapsed);
         const RunSession& session = bench_.session();
         const bool last =
@@ -188,6 +198,12 @@ void WindowRun::finishPhase(ShowPhase phase) {
     phaseStart_ = now;
 }
 
+std::vector<ScreenRect> WindowRun::views() const {
+    if (!comparison_) return {rect()};
+    const auto both = comparisonLayout(view_, gui_.scale(), size_.width, size_.height).views;
+    return {both.begin(), both.end()};
+}
+
 void WindowRun::showPicture(bool last) {
     phaseStart_ = Clock::now();
     moveCamera();
@@ -225,6 +241,7 @@ void WindowRun::prepare(const Viewport& viewport) {
                              (view_.colorBy == ColorBy::Cell && otherCells);
     if (otherRows || otherColors) boxes_.setColors(colors_.update(simulation, view_.colorBy));
     if (otherCells) cells_.prepare(simulation.cells());
+    if (comparison_) comparison_->prepare(bench_, secondViewport(), boxes_);
     runVersion_ = bench_.runVersion();
     cellsVersion_ = bench_.cellsVersion();
     stepsShown_ = simulation.stepsDone();
@@ -235,16 +252,26 @@ void WindowRun::draw(const Viewport& viewport) const {
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.051f, 0.063f, 0.078f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    const double ratio = viewport.pixelRatio;
-    const auto pixels = [&](double points) {
-        return static_cast<GLint>(std::lround(points * ratio));
-    };
-    glViewport(pixels(viewport.view.x), 0, pixels(viewport.view.width), size_.pixelHeight);
+    setViewport(viewport);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     cells_.draw(viewport, view_.overlays);
     // Where cells are crowded, their bodies would hide how crowded.
-    boxes_.draw(viewport, view_.overlays.heatMap ? 0.5 : 1);
+    const double opacity = view_.overlays.heatMap ? 0.5 : 1;
+    boxes_.draw(viewport, opacity);
+    if (!comparison_) return;
+    setViewport(secondViewport());
+    comparison_->draw(secondViewport(), view_.overlays, opacity);
+}
+
+void WindowRun::setViewport(const Viewport& viewport) const {
+    const ScreenRect& view = viewport.view;
+    const auto pixels = [&](double points) {
+        return static_cast<GLint>(std::lround(points * viewport.pixelRatio));
+    };
+    // OpenGL counts from below.
+    glViewport(pixels(view.x), size_.pixelHeight - pixels(view.y + view.height), pixels(view.width),
+               pixels(view.height));
 }
 
 void WindowRun::takeScreenshots(bool last) {

@@ -4,6 +4,7 @@
 #include <exception>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,11 +37,14 @@ Workbench::Workbench(const Options& options)
 }
 
 void Workbench::start(Run run, Options options) {
-    ensureRenderers(run.simulation.world());
-    // The panels show the phases of every step.
-    SimulationConfig config = run.simulation.config();
-    config.profile = true;
-    run.simulation.reconfigure(config);
+    for (Run* each : {&run, run.beside.get()}) {
+        if (each == nullptr) continue;
+        ensureRenderers(each->simulation.world());
+        // The panels show the phases of every step.
+        SimulationConfig config = each->simulation.config();
+        config.profile = true;
+        each->simulation.reconfigure(config);
+    }
     // Outputs have one writer: the old session's go before the new one's come.
     std::optional<Shown> shown;
     if (session_) shown = session_->statistics().shown;
@@ -48,7 +52,10 @@ void Workbench::start(Run run, Options options) {
     options_ = std::make_unique<Options>(std::move(options));
     session_ = std::make_unique<RunSession>(std::move(run), *options_);
     session_->statistics().shown = std::move(shown);
-    pacer_ = Pacer(config.step.dt, pacer_.speed());
+    const RunBeside* beside = session_->beside();
+    const double steps = beside != nullptr ? double(beside->stepsPerMeeting()) : 1;
+    pacer_ = Pacer(steps * config().step.dt, pacer_.speed());
+    comparison_.clear();
     listening_ = false;
     contacts_.clear();
     lastStep_ = {};
@@ -111,10 +118,15 @@ int Workbench::advance(double seconds) {
 void Workbench::step() {
     contacts_.clear();
     const ResolverKind before = config().resolver;
-    lastStep_ = session_->step();
+    const RunBeside* beside = session_->beside();
+    // What two runs show is of one time.
+    do {
+        lastStep_ = session_->step();
+        cellsVersion_ += lastStep_.rebuilt;
+        for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
+    } while (beside != nullptr && !beside->met() && !done());
     if (config().resolver != before) sayFallback();
-    cellsVersion_ += lastStep_.rebuilt;
-    for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
+    if (beside != nullptr && beside->met()) comparison_.add(*beside->last());
 }
 
 std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(phases_, {}); }
@@ -124,22 +136,30 @@ std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(ph
 void Workbench::reset() { restart(*options_, "started anew"); }
 
 void Workbench::open(const std::string& sceneFile) {
-    Options options = *options_;
-    options.scene = sceneFile;
-    options.load.clear();
-    // What the command line says of the first scene does not hold for this one.
-    options.set.clear();
-    options.entities.reset();
-    options.seed.reset();
-    options.dt.reset();
-    options.restitution.reset();
+    const auto toOpen = [&](Options options) {
+        options.scene = sceneFile;
+        options.load.clear();
+        // What the command line says of the first scene does not hold for this one.
+        options.set.clear();
+        options.entities.reset();
+        options.seed.reset();
+        if (options.label.empty()) {  // of runs that are compared it says in what they differ
+            options.dt.reset();
+            options.restitution.reset();
+        }
+        return options;
+    };
+    Options options = toOpen(*options_);
+    if (options.beside) options.beside = std::make_shared<const Options>(toOpen(*options.beside));
     restart(std::move(options), "opened " + sceneFile);
 }
 
 void Workbench::restart(Options options, const std::string& success) {
-    options.partitioner = config().partitioner;
-    options.law = config().law;
-    options.resolver = session_->run().requestedResolver;
+    if (!options.beside) {
+        options.partitioner = config().partitioner;
+        options.law = config().law;
+        options.resolver = session_->run().requestedResolver;
+    }
     std::optional<Run> run;
     try {
         run = setUp(options);
@@ -162,7 +182,14 @@ void Workbench::apply(SimulationConfig config) {
     ++cellsVersion_;
 }
 
+bool Workbench::refuseChange() {
+    if (session_->beside() == nullptr) return false;
+    say("two runs that are compared stay as they are");
+    return true;
+}
+
 void Workbench::reconfigure(SimulationConfig config) {
+    if (refuseChange()) return;
     const ResolverKind before = this->config().resolver;
     std::string reason;
     try {
@@ -201,6 +228,7 @@ void Workbench::nextLaw() {
 }
 
 void Workbench::nextResolver() {
+    if (refuseChange()) return;
     for (std::size_t i = 1; i < resolvers().size(); ++i) {
         SimulationConfig next = config();
         next.resolver = nextOf(resolvers(), next.resolver, i);
@@ -216,6 +244,16 @@ void Workbench::nextResolver() {
         return;
     }
     say("no other resolver can run this");
+}
+
+// ---- the comparison
+
+std::array<std::string, 2> Workbench::labels() const {
+    return {options_->label, options_->beside ? options_->beside->label : std::string()};
+}
+
+const World& Workbench::world(std::size_t run) const {
+    return run == 0 ? simulation().world() : session_->beside()->run().simulation.world();
 }
 
 // ---- looking closer

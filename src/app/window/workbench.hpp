@@ -10,6 +10,7 @@
 
 #include "app/options.hpp"
 #include "app/run_session.hpp"
+#include "app/window/comparison_history.hpp"
 #include "app/window/pacer.hpp"
 #include "app/window/phase_history.hpp"
 
@@ -71,6 +72,14 @@ class Workbench {
     std::uint64_t cellsVersion() const { return cellsVersion_; }
     std::uint64_t runVersion() const { return runVersion_; }
 
+    // ---- the comparison with another run, if there is one
+
+    /// What the runs are called.
+    std::array<std::string, 2> labels() const;
+    const ComparisonHistory& comparison() const { return comparison_; }
+    /// The world of the first run, or of the second.
+    const World& world(std::size_t run) const;
+
     // ---- looking closer
 
     void select(std::optional<Entity> entity);
@@ -94,6 +103,8 @@ class Workbench {
     void apply(SimulationConfig config);
     void sayFallback();
     void step();
+    /// Says that the runs of a comparison stay as they are, if there is one.
+    bool refuseChange();
     bool done() const { return session_->allFramesDone(); }
 
     std::unique_ptr<Options> options_;  // the session refers to them
@@ -103,6 +114,7 @@ class Workbench {
     StepReport lastStep_;
     std::array<double, phaseCount> phases_{};
     std::uint64_t cellsVersion_ = 0, runVersion_ = 0;
+    ComparisonHistory comparison_;
 
     std::optional<Entity> selected_;
     bool following_ = false;
