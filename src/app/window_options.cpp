@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -41,6 +42,19 @@ double parseSpeed(std::string_view text) {
     const bool valid = error == std::errc() && end == text.data() + text.size() &&
                        value >= 1.0 / 64 && value <= 64;
     return valid ? value : std::nan("");
+}
+
+/// Bytes of "256MB", "1.5GB", "0"; nothing if it is no such text.
+std::optional<std::uint64_t> parseBytes(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || !(value >= 0)) return std::nullopt;
+    const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    const std::map<std::string_view, double> units = {
+        {"", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}};
+    const auto found = units.find(unit);
+    if (found == units.end() || value * found->second > 1e15) return std::nullopt;
+    return static_cast<std::uint64_t>(value * found->second);
 }
 
 }  // namespace
@@ -101,6 +115,16 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
         ->type_name("WHAT")
         ->group(group);
     app.add_flag("!--no-vsync", options.vsync, "Show pictures without waiting for the screen")
+        ->group(group);
+    app.add_option_function<std::string>(
+           "--history",
+           [&options, refuse](const std::string& text) {
+               const auto bytes = parseBytes(text);
+               if (!bytes) refuse("--history", text, "is no size such as 256MB, 1.5GB or 0");
+               options.history = *bytes;
+           },
+           "Memory for states to go back to on the timeline; 0 keeps none (256MB)")
+        ->type_name("SIZE")
         ->group(group);
     app.add_option("--screenshot", options.screenshot, "Write the last frame shown as PNG")
         ->check([](const std::string& text) {

@@ -31,7 +31,8 @@ struct WindowOptions {
     bool vsync = true;
     Overlays overlays;
     ColorBy colorBy = ColorBy::Entity;
-    std::string screenshot;  ///< file name, or empty
+    std::string screenshot;               ///< file name, or empty
+    std::uint64_t history = 256'000'000;  ///< bytes for states to go back to; 0: none are kept
 };
 
 /// Adds the options of the group "Window".

@@ -150,10 +150,12 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"--size", "0x480"}, Arguments{"--size", "640x480x2"},
         Arguments{"--size", "640;480"}, Arguments{"--size", "9e3x480"}, Arguments{"--speed", "0"},
         Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"}, Arguments{"--speed", "fast"},
-        Arguments{"--show", "cells"}, Arguments{"--show", "gridlines,cells"},
-        Arguments{"--color-by", "mass"}, Arguments{"--threads", "0"}, Arguments{"--threads", "-1"},
-        Arguments{"--threads", "1.5"}, Arguments{"--threads", "many"},
-        Arguments{"--threads", "1025"}, Arguments{"--threads", "99999999999999999999"}),
+        Arguments{"--history", "much"}, Arguments{"--history", "-1MB"},
+        Arguments{"--history", "5TB"}, Arguments{"--show", "cells"},
+        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"},
+        Arguments{"--threads", "0"}, Arguments{"--threads", "-1"}, Arguments{"--threads", "1.5"},
+        Arguments{"--threads", "many"}, Arguments{"--threads", "1025"},
+        Arguments{"--threads", "99999999999999999999"}),
     nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};

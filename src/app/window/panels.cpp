@@ -4,20 +4,27 @@
 #include <imgui.h>
 
 #include "app/window/comparison_view.hpp"
+#include "app/window/timeline_bar.hpp"
 
 namespace quadrille::app {
 
 namespace {
 
-constexpr double columnPoints = 300;
+constexpr double columnPoints = 300, timelinePoints = 30;
 
 ScreenRect besidePanels(const ViewState& view, double scale, int width, int height) {
     const double column = view.panels ? columnPoints * scale : 0;
+    const double below = view.panels && view.timeline ? timelinePoints * scale : 0;
     // However narrow the window is, there is a view to calculate with.
-    return {column, 0, std::max(1.0, width - column), std::max(1.0, double(height))};
+    return {column, 0, std::max(1.0, width - column), std::max(1.0, height - below)};
 }
 
 }  // namespace
+
+ScreenRect timelineRect(const ViewState& view, double scale, int width, int height) {
+    const ScreenRect above = besidePanels(view, scale, width, height);
+    return {above.x, above.height, above.width, std::max(1.0, height - above.height)};
+}
 
 ScreenRect worldRect(const ViewState& view, double scale, int width, int height) {
     if (view.compared) return comparisonLayout(view, scale, width, height).views[0];
@@ -55,6 +62,7 @@ void showPanels(const PanelContext& context) {
         ImGui::PopItemWidth();
         ImGui::End();
     }
+    if (context.view.panels && context.view.timeline) showTimelineBar(context);
     showEntityWindow(context);
     showHelpWindow(context);
     showMessage(context);

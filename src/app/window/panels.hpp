@@ -24,6 +24,9 @@ struct PanelContext {
 /// first.
 ScreenRect worldRect(const ViewState& view, double scale, int width, int height);
 
+/// Where the timeline is shown: below the world, with the panels.
+ScreenRect timelineRect(const ViewState& view, double scale, int width, int height);
+
 /// How a comparison divides what the panels leave; only where there is one.
 ComparisonLayout comparisonLayout(const ViewState& view, double scale, int width, int height);
 

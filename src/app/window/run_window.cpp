@@ -117,6 +117,7 @@ int WindowRun::loop() {
         phases_ = {};
         takeEvents();
         beginPanels();
+        view_.timeline = bench_.keepsPast();
         if (comparison_) view_.compared = bench_.simulation().world().config().size;
         for (const SDL_Event& event : events_) input_.handle(event, views(), gui_, bench_, view_);
         bench_.advance(elapsed);

@@ -16,6 +16,7 @@ struct ViewState {
     bool help = false;
     bool vsync = true;
 
+    bool timeline = false;  ///< there is one, below the world
     /// Where two runs are compared, which share the view: the size of their world, px.
     std::optional<Vec2> compared;
 

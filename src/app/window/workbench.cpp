@@ -1,6 +1,7 @@
 #include "app/window/workbench.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iterator>
 #include <limits>
@@ -19,6 +20,8 @@ namespace {
 
 /// Steps of one picture may take this long; then it is shown, and the rest is dropped.
 constexpr std::chrono::milliseconds longestStepping{40};
+/// The past moves by so many seconds from one picture to the next at most.
+constexpr double longestPast = 0.25;
 
 /// So many further on in the list, the first after the last.
 template <class Kind>
@@ -56,6 +59,13 @@ void Workbench::start(Run run, Options options) {
     const double steps = beside != nullptr ? double(beside->stepsPerMeeting()) : 1;
     pacer_ = Pacer(steps * config().step.dt, pacer_.speed());
     comparison_.clear();
+    shown_ = &session_->simulation();
+    lookingBack_ = backwards_ = seeking_ = false;
+    timeline_.reset();
+    if (options_->window.history > 0 && beside == nullptr) {
+        timeline_.emplace(options_->window.history);
+        timeline_->begin(session_->simulation());
+    }
     listening_ = false;
     contacts_.clear();
     lastStep_ = {};
@@ -75,6 +85,7 @@ void Workbench::togglePause() {
 
 void Workbench::singleStep() {
     paused_ = true;
+    if (lookingBack_) return lookAt(std::floor(place_) + 1);
     if (!done()) step();
 }
 
@@ -100,6 +111,10 @@ void Workbench::changeSpeed(bool faster) {
 }
 
 int Workbench::advance(double seconds) {
+    if (lookingBack_) {
+        movePast(seconds);
+        return 0;
+    }
     if (paused_) return 0;
     pacer_.pass(seconds);
     const auto start = Clock::now();
@@ -127,6 +142,81 @@ void Workbench::step() {
     } while (beside != nullptr && !beside->met() && !done());
     if (config().resolver != before) sayFallback();
     if (beside != nullptr && beside->met()) comparison_.add(*beside->last());
+    if (timeline_) timeline_->record();
+}
+
+// ---- the past
+
+double Workbench::place() const {
+    return lookingBack_ ? place_ : double(session_->simulation().stepsDone());
+}
+
+std::uint64_t Workbench::firstPlace() const { return timeline_ ? timeline_->first() : lastPlace(); }
+
+void Workbench::lookAt(double place) {
+    if (!timeline_) return;
+    if (place >= double(lastPlace())) return toNewest();
+    place_ = std::max(place, double(firstPlace()));
+    lookingBack_ = true;
+    showPast();
+}
+
+void Workbench::stepBack() {
+    paused_ = true;
+    lookAt(std::ceil(place()) - 1);
+}
+
+void Workbench::playBackwards() {
+    if (!timeline_) return;
+    backwards_ = !backwards_;
+    paused_ = false;
+    if (backwards_ && !lookingBack_) lookAt(std::nextafter(place(), 0));
+}
+
+void Workbench::toNewest() {
+    shown_ = &session_->simulation();
+    lookingBack_ = backwards_ = seeking_ = false;
+    contacts_.clear();
+    ++cellsVersion_;
+    pacer_.drop();
+}
+
+void Workbench::movePast(double seconds) {
+    if (paused_) {
+        if (seeking_) showPast();
+        return;
+    }
+    // What is not reached yet need not move on.
+    if (seeking_) return showPast();
+    const double steps =
+        speed() == 0 ? 1 : std::min(seconds, longestPast) * speed() / config().step.dt;
+    lookAt(place_ + (backwards_ ? -steps : steps));
+    if (backwards_ && place_ <= double(firstPlace())) {
+        backwards_ = false;
+        paused_ = true;
+    }
+}
+
+void Workbench::showPast() {
+    const double step = std::floor(place_);
+    seeking_ = !timeline_->goTo(static_cast<std::uint64_t>(step), Clock::now() + longestStepping);
+    shown_ = &timeline_->past();
+    const auto found = shown_->contacts();
+    contacts_.assign(found.begin(), found.end());
+    if (!seeking_ && place_ > step && shown_->config().law == Law::Continuous) {
+        shown_ = &timeline_->between(place_ - step);
+    }
+    pastHash_ = stateHash(shown_->world());
+    ++cellsVersion_;
+}
+
+std::uint64_t Workbench::shownHash() const {
+    return lookingBack_ ? pastHash_ : timeline_->hashAt(lastPlace());
+}
+
+std::optional<bool> Workbench::sameAsOnTheWay() const {
+    if (!lookingBack_ || shown_ != &timeline_->past()) return std::nullopt;
+    return pastHash_ == timeline_->hashAt(shown_->stepsDone());
 }
 
 std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(phases_, {}); }
@@ -179,6 +269,8 @@ void Workbench::apply(SimulationConfig config) {
         if (!device.usable()) throw DeviceError("cuda: " + device.reason);
     }
     session_->reconfigure(config);
+    if (lookingBack_) toNewest();
+    if (timeline_) timeline_->change();
     ++cellsVersion_;
 }
 

@@ -13,6 +13,7 @@
 #include "app/window/comparison_history.hpp"
 #include "app/window/pacer.hpp"
 #include "app/window/phase_history.hpp"
+#include "app/window/timeline.hpp"
 
 namespace quadrille::app {
 
@@ -32,7 +33,8 @@ class Workbench {
 
     RunSession& session() { return *session_; }
     const RunSession& session() const { return *session_; }
-    const Simulation& simulation() const { return session_->simulation(); }
+    /// What is shown: the run, or its past.
+    const Simulation& simulation() const { return *shown_; }
     const SimulationConfig& config() const { return session_->simulation().config(); }
 
     // ---- time
@@ -48,6 +50,31 @@ class Workbench {
 
     /// Runs the steps that are due after `seconds` of wall time; returns how many there were.
     int advance(double seconds);
+    // ---- the past
+
+    /// Whether the run's past is kept.
+    bool keepsPast() const { return timeline_.has_value(); }
+    bool lookingBack() const { return lookingBack_; }
+    /// What is shown, and what can be, in steps since the start; with `continuous` also between
+    /// two.
+    double place() const;
+    std::uint64_t firstPlace() const;
+    std::uint64_t lastPlace() const { return session_->simulation().stepsDone(); }
+    /// Shows the past, or at the end the run itself.
+    void lookAt(double place);
+    void stepBack();
+    /// From here backwards, or forwards again.
+    void playBackwards();
+    bool backwards() const { return backwards_; }
+    void toNewest();
+    /// Whether what is shown is still on the way to the place.
+    bool seeking() const { return seeking_; }
+    /// The hash of what is shown.
+    std::uint64_t shownHash() const;
+    /// Whether the past that is shown has the bits that the run had there; nothing between two
+    /// steps.
+    std::optional<bool> sameAsOnTheWay() const;
+
     /// What the steps took since the last call, by phase in s.
     std::array<double, phaseCount> takePhases();
 
@@ -103,6 +130,8 @@ class Workbench {
     void apply(SimulationConfig config);
     void sayFallback();
     void step();
+    void movePast(double seconds);
+    void showPast();
     /// Says that the runs of a comparison stay as they are, if there is one.
     bool refuseChange();
     bool done() const { return session_->allFramesDone(); }
@@ -115,6 +144,12 @@ class Workbench {
     std::array<double, phaseCount> phases_{};
     std::uint64_t cellsVersion_ = 0, runVersion_ = 0;
     ComparisonHistory comparison_;
+
+    std::optional<Timeline> timeline_;
+    const Simulation* shown_ = nullptr;
+    bool lookingBack_ = false, backwards_ = false, seeking_ = false;
+    double place_ = 0;            // while looking back
+    std::uint64_t pastHash_ = 0;  // of what is shown then
 
     std::optional<Entity> selected_;
     bool following_ = false;
