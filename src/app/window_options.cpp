@@ -97,12 +97,13 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
                    options.overlays.gridlines |= name == "gridlines";
                    options.overlays.heatMap |= name == "heat-map";
                    options.overlays.contacts |= name == "contacts";
+                   options.overlays.trails |= name == "trails";
                }
            },
-           "gridlines, heat-map, contacts, or several of them")
+           "gridlines, heat-map, contacts, trails, or several of them")
         ->delimiter(',')
         ->allow_extra_args(false)  // a scene may follow
-        ->check(oneOf({"gridlines", "heat-map", "contacts"}))
+        ->check(oneOf({"gridlines", "heat-map", "contacts", "trails"}))
         ->type_name("WHAT,...")
         ->group(group);
     const std::map<std::string, ColorBy> colors = {

@@ -18,6 +18,7 @@ struct Overlays {
     bool gridlines = false;
     bool heatMap = false;
     bool contacts = false;
+    bool trails = false;  ///< where bodies were in the last seconds
 };
 
 /// The part of the command line that concerns the window.

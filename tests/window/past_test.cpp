@@ -1,10 +1,12 @@
 // The timeline: the past of a run is looked at, and the run is none the worse for it.
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "scenes.hpp"
 #include "window_run.hpp"
 
 namespace quadrille {
@@ -97,6 +99,31 @@ TEST_F(WindowPast, TheSliderGoesToAnyStep) {
     })) << screen_->title();
     screen_->press("End");
     EXPECT_TRUE(titleHas("step 40,"));
+    close();
+}
+
+/// A body that moves to the right leaves a line behind it, and none where it will be.
+TEST_F(WindowPast, TrailsShowWhereTheSelectedBodyWas) {
+    startPaused(write("still.toml", stillScene), {"--show", "trails"});
+    for (int i = 0; i < 40; ++i) screen_->press("period");  // 1 px each
+    ASSERT_TRUE(titleHas("step 40,"));
+    const Place body = placeOf(stillWidth, stillHeight, 40, 0);
+    screen_->click(body.x, body.y);
+    const auto trailAt = [&](double x) {
+        const Place place = placeOf(stillWidth, stillHeight, x, 0);
+        const Image image = screen_->image();
+        int most = 0;
+        for (int dy = -2; dy <= 2; ++dy) most = std::max(most, image.at(place.x, place.y + dy).r);
+        return most > 40;
+    };
+    EXPECT_TRUE(eventually([&] { return trailAt(20); }));
+    EXPECT_TRUE(trailAt(3));
+    EXPECT_FALSE(trailAt(-10));
+    for (int i = 0; i < 30; ++i) screen_->press("comma");
+    ASSERT_TRUE(titleHas("step 10,"));
+    EXPECT_TRUE(eventually([&] { return trailAt(3) && !trailAt(-10); }));
+    screen_->press("w");
+    EXPECT_TRUE(eventually([&] { return !trailAt(3); }));
     close();
 }
 

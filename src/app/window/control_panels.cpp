@@ -175,6 +175,9 @@ void showDisplayPanel(const PanelContext& context) {
     if (ImGui::Checkbox("contacts", &view.overlays.contacts)) {
         context.bench.watchContacts(view.overlays.contacts);
     }
+    if (ImGui::Checkbox("trails", &view.overlays.trails)) {
+        context.bench.watchTrails(view.overlays.trails);
+    }
     ImGui::SameLine(0, apart);
     ImGui::Checkbox("vsync", &view.vsync);
     const float gap = ImGui::GetStyle().ItemSpacing.x;

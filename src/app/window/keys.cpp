@@ -44,6 +44,11 @@ constexpr KeyCommand commands[] = {
          v.overlays.contacts = !v.overlays.contacts;
          b.watchContacts(v.overlays.contacts);
      }},
+    {SDLK_w, false, "W", "trails of the selected, or of all",
+     [](B b, V v) {
+         v.overlays.trails = !v.overlays.trails;
+         b.watchTrails(v.overlays.trails);
+     }},
     {SDLK_v, false, "V", "colour by entity, speed, cell",
      [](B, V v) { v.colorBy = static_cast<ColorBy>((static_cast<int>(v.colorBy) + 1) % 3); }},
     {SDLK_f, false, "F", "follow the selected entity", [](B b, V) { b.toggleFollow(); }},

@@ -5,6 +5,7 @@
 
 #include "app/window/comparison_view.hpp"
 #include "app/window/timeline_bar.hpp"
+#include "app/window/trail_lines.hpp"
 
 namespace quadrille::app {
 
@@ -40,6 +41,7 @@ bool sectionHeader(const char* label) {
 }
 
 void showPanels(const PanelContext& context) {
+    showTrails(context);
     showOverlay(context);
     if (context.view.compared) showComparison(context);
     if (context.view.panels) {

@@ -104,6 +104,7 @@ WindowRun::WindowRun(const Options& options)
     vsync_ = view_.vsync;
     hasVsync_ = window_.setVsync(vsync_);
     bench_.watchContacts(view_.overlays.contacts);
+    bench_.watchTrails(view_.overlays.trails);
     bench_.session().statistics().shown = Shown{
         .width = size_.pixelWidth, .height = size_.pixelHeight, .renderer = window_.renderer()};
 }

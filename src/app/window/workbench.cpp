@@ -61,6 +61,8 @@ void Workbench::start(Run run, Options options) {
     comparison_.clear();
     shown_ = &session_->simulation();
     lookingBack_ = backwards_ = seeking_ = false;
+    trails_.clear();
+    recordTrails();
     timeline_.reset();
     if (options_->window.history > 0 && beside == nullptr) {
         timeline_.emplace(options_->window.history);
@@ -143,6 +145,7 @@ void Workbench::step() {
     if (config().resolver != before) sayFallback();
     if (beside != nullptr && beside->met()) comparison_.add(*beside->last());
     if (timeline_) timeline_->record();
+    recordTrails();
 }
 
 // ---- the past
@@ -207,6 +210,7 @@ void Workbench::showPast() {
         shown_ = &timeline_->between(place_ - step);
     }
     pastHash_ = stateHash(shown_->world());
+    if (shown_ == &timeline_->past()) recordTrails();
     ++cellsVersion_;
 }
 
@@ -371,6 +375,17 @@ void Workbench::watchContacts(bool wanted) {
     session_->simulation().onContact([this](const Contact& contact) {
         if (watching_ || selected_) contacts_.push_back(contact);
     });
+}
+
+void Workbench::watchTrails(bool wanted) {
+    if (wanted == watchingTrails_) return;
+    watchingTrails_ = wanted;
+    trails_.clear();
+    recordTrails();
+}
+
+void Workbench::recordTrails() {
+    if (watchingTrails_) trails_.record(shown_->world(), shown_->stepsDone());
 }
 
 void Workbench::sayFallback() {

@@ -14,6 +14,7 @@
 #include "app/window/pacer.hpp"
 #include "app/window/phase_history.hpp"
 #include "app/window/timeline.hpp"
+#include "app/window/trails.hpp"
 
 namespace quadrille::app {
 
@@ -118,6 +119,10 @@ class Workbench {
     void watchContacts(bool wanted);
     const std::vector<Contact>& contacts() const { return contacts_; }
 
+    /// Where bodies were in the steps that were shown, from when it was asked for.
+    void watchTrails(bool wanted);
+    const Trails& trails() const { return trails_; }
+
     void say(std::string text, bool isError = false);
     /// The message to show, or null.
     const Message* message() const;
@@ -132,6 +137,7 @@ class Workbench {
     void step();
     void movePast(double seconds);
     void showPast();
+    void recordTrails();
     /// Says that the runs of a comparison stay as they are, if there is one.
     bool refuseChange();
     bool done() const { return session_->allFramesDone(); }
@@ -155,6 +161,8 @@ class Workbench {
     bool following_ = false;
     bool watching_ = false, listening_ = false;
     std::vector<Contact> contacts_;
+    bool watchingTrails_ = false;
+    Trails trails_;
     Message message_;
 };
 
