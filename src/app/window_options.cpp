@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -15,6 +14,14 @@ namespace quadrille::app {
 namespace {
 
 constexpr int leastSide = 64, mostSide = 16384;
+
+constexpr Named<ColorBy> allColorings[] = {
+    {ColorBy::Entity, "entity", "its own"},
+    {ColorBy::Speed, "speed", "speed"},
+    {ColorBy::Energy, "energy", "kinetic energy"},
+    {ColorBy::SinceHit, "since-hit", "time since the last hit"},
+    {ColorBy::Cell, "cell", "cell of the partition"},
+};
 
 /// The number at the start of `text`, which is cut off; -1 if there is none in the valid range.
 int takeSide(std::string_view& text) {
@@ -44,6 +51,8 @@ double parseSpeed(std::string_view text) {
 }
 
 }  // namespace
+
+std::span<const Named<ColorBy>> colorings() { return allColorings; }
 
 void declareWindowOptions(CLI::App& app, WindowOptions& options) {
     const char* const group = "Window";
@@ -83,21 +92,20 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
                    options.overlays.gridlines |= name == "gridlines";
                    options.overlays.heatMap |= name == "heat-map";
                    options.overlays.contacts |= name == "contacts";
+                   options.overlays.arrows |= name == "arrows";
                }
            },
-           "gridlines, heat-map, contacts, or several of them")
+           "gridlines, heat-map, contacts, arrows (velocities), or several of them")
         ->delimiter(',')
         ->allow_extra_args(false)  // a scene may follow
-        ->check(oneOf({"gridlines", "heat-map", "contacts"}))
+        ->check(oneOf({"gridlines", "heat-map", "contacts", "arrows"}))
         ->type_name("WHAT,...")
         ->group(group);
-    const std::map<std::string, ColorBy> colors = {
-        {"entity", ColorBy::Entity}, {"speed", ColorBy::Speed}, {"cell", ColorBy::Cell}};
     app.add_option_function<std::string>(
            "--color-by",
-           [&options, colors](const std::string& name) { options.colorBy = colors.at(name); },
-           "entity, speed or cell (entity)")
-        ->check(oneOf({"entity", "speed", "cell"}))
+           [&options](const std::string& name) { options.colorBy = *find(colorings(), name); },
+           alternatives(colorings()) + " (" + std::string(colorings().front().name) + ")")
+        ->check(oneOf(namesOf(colorings())))
         ->type_name("WHAT")
         ->group(group);
     app.add_flag("!--no-vsync", options.vsync, "Show pictures without waiting for the screen")

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+
+#include <quadrille/names.hpp>
 
 namespace CLI {
 class App;
@@ -11,13 +14,17 @@ class App;
 namespace quadrille::app {
 
 /// What the colour of a body stands for.
-enum class ColorBy : std::uint8_t { Entity, Speed, Cell };
+enum class ColorBy : std::uint8_t { Entity, Speed, Energy, SinceHit, Cell };
+
+/// All that there are, in the order of the list and of the key that goes through them.
+std::span<const Named<ColorBy>> colorings();
 
 /// What is drawn beside the bodies.
 struct Overlays {
     bool gridlines = false;
     bool heatMap = false;
     bool contacts = false;
+    bool arrows = false;  ///< velocities
 };
 
 /// The part of the command line that concerns the window.

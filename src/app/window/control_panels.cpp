@@ -164,9 +164,9 @@ void showDisplayPanel(const PanelContext& context) {
     ViewState& view = context.view;
     if (!sectionHeader("Display")) return;
     auto colorBy = int(view.colorBy);
-    if (choose("colour", colorBy, std::array{"by entity", "by speed", "by cell"})) {
-        view.colorBy = static_cast<ColorBy>(colorBy);
-    }
+    std::vector<std::string_view> meanings;
+    for (const Named<ColorBy>& coloring : colorings()) meanings.push_back(coloring.about);
+    if (choose("colour by", colorBy, meanings)) view.colorBy = static_cast<ColorBy>(colorBy);
     const auto apart = float(14 * context.scale);
     ImGui::Checkbox("grid", &view.overlays.gridlines);
     ImGui::SameLine(0, apart);
@@ -175,6 +175,7 @@ void showDisplayPanel(const PanelContext& context) {
     if (ImGui::Checkbox("contacts", &view.overlays.contacts)) {
         context.bench.watchContacts(view.overlays.contacts);
     }
+    ImGui::Checkbox("velocities", &view.overlays.arrows);
     ImGui::SameLine(0, apart);
     ImGui::Checkbox("vsync", &view.vsync);
     const float gap = ImGui::GetStyle().ItemSpacing.x;

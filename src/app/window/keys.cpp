@@ -41,8 +41,13 @@ constexpr KeyCommand commands[] = {
          v.overlays.contacts = !v.overlays.contacts;
          b.watchContacts(v.overlays.contacts);
      }},
-    {SDLK_v, false, "V", "colour by entity, speed, cell",
-     [](B, V v) { v.colorBy = static_cast<ColorBy>((static_cast<int>(v.colorBy) + 1) % 3); }},
+    {SDLK_a, false, "A", "arrows: velocities",
+     [](B, V v) { v.overlays.arrows = !v.overlays.arrows; }},
+    {SDLK_v, false, "V", "colour by entity, speed, energy,\ntime since the last hit, cell",
+     [](B, V v) {
+         const auto next = (static_cast<std::size_t>(v.colorBy) + 1) % colorings().size();
+         v.colorBy = static_cast<ColorBy>(next);
+     }},
     {SDLK_f, false, "F", "follow the selected entity", [](B b, V) { b.toggleFollow(); }},
     {SDLK_ESCAPE, false, "Esc", "close help, then select nothing",
      [](B b, V v) {

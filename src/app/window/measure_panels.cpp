@@ -7,6 +7,7 @@
 #include <quadrille/names.hpp>
 
 #include "app/summary.hpp"
+#include "app/window/nice_numbers.hpp"
 #include "app/window/panels.hpp"
 #include "app/window/text.hpp"
 
@@ -56,15 +57,6 @@ struct Canvas {
     float height() const { return high.y - low.y; }
 };
 
-/// The next of 1, 2, 5, 10, 20, ... that is not below `value`.
-float niceCeiling(float value) {
-    const float power = std::pow(10.0f, std::floor(std::log10(std::max(value, 1e-3f))));
-    for (const float step : {1.0f, 2.0f, 5.0f}) {
-        if (value <= step * power) return step * power;
-    }
-    return 10 * power;
-}
-
 }  // namespace
 
 void showCountersPanel(const PanelContext& context) {
@@ -111,7 +103,7 @@ void showFrameTimePanel(const PanelContext& context) {
         return sum;
     };
     for (std::size_t i = 0; i < history.size(); ++i) most = std::max(most, total(history[i]));
-    const float top = niceCeiling(most);
+    const auto top = float(std::max(niceCeiling(double(most)), 1e-3));
     const Canvas canvas(50 * context.scale);
     const float barWidth = canvas.width() / float(PhaseHistory::length);
     for (std::size_t i = 0; i < history.size(); ++i) {

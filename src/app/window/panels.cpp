@@ -22,7 +22,6 @@ bool sectionHeader(const char* label) {
 }
 
 void showPanels(const PanelContext& context) {
-    showOverlay(context);
     if (context.view.panels) {
         ImGui::SetNextWindowPos({0, 0});
         ImGui::SetNextWindowSize({float(columnPoints * context.scale), float(context.height)});

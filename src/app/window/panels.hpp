@@ -40,7 +40,4 @@ void showEntityWindow(const PanelContext& context);
 void showHelpWindow(const PanelContext& context);
 void showMessage(const PanelContext& context);
 
-/// Draws over the world, below the panels: the selected entity, contacts, the heat map's legend.
-void showOverlay(const PanelContext& context);
-
 }  // namespace quadrille::app

@@ -15,10 +15,12 @@
 #include "app/window/cell_layer.hpp"
 #include "app/window/gui.hpp"
 #include "app/window/input.hpp"
+#include "app/window/overlay.hpp"
 #include "app/window/panels.hpp"
 #include "app/window/screenshot.hpp"
 #include "app/window/sdl_window.hpp"
 #include "app/window/text.hpp"
+#include "app/window/theme.hpp"
 
 namespace quadrille::app {
 
@@ -95,6 +97,7 @@ WindowRun::WindowRun(const Options& options)
     vsync_ = view_.vsync;
     hasVsync_ = window_.setVsync(vsync_);
     bench_.watchContacts(view_.overlays.contacts);
+    bench_.watchHits(view_.colorBy == ColorBy::SinceHit);
     bench_.session().statistics().shown = Shown{
         .width = size_.pixelWidth, .height = size_.pixelHeight, .renderer = window_.renderer()};
 }
@@ -192,13 +195,17 @@ void WindowRun::showPicture(bool last) {
     phaseStart_ = Clock::now();
     moveCamera();
     measures_.update(bench_);
-    showPanels({bench_, view_, measures_, history_, gui_.scale(), size_.width, size_.height});
-    gui_.endFrame();
+    const PanelContext context{bench_,       view_,       measures_,   history_,
+                               gui_.scale(), size_.width, size_.height};
+    showPanels(context);
     finishPhase(ShowPhase::Gui);
 
     const Viewport viewport{view_.camera, rect(), size_.pixelRatio()};
     prepare(viewport);
     finishPhase(ShowPhase::Prepare);
+    showOverlay(context, colors_.scale());
+    gui_.endFrame();
+    finishPhase(ShowPhase::Gui);
     draw(viewport);
     finishPhase(ShowPhase::Draw);
     glViewport(0, 0, size_.pixelWidth, size_.pixelHeight);
@@ -220,10 +227,13 @@ void WindowRun::prepare(const Viewport& viewport) {
     const bool otherSteps = stepsShown_ != simulation.stepsDone();
     const bool otherRows = boxes_.rowsChanged() || otherRun;
     if (otherRows) colors_.readEntities(simulation.world());
-    const bool otherColors = colorBy_ != view_.colorBy ||
-                             (view_.colorBy == ColorBy::Speed && otherSteps) ||
+    const bool ofMotion = view_.colorBy != ColorBy::Entity && view_.colorBy != ColorBy::Cell;
+    const bool otherColors = colorBy_ != view_.colorBy || (ofMotion && otherSteps) ||
                              (view_.colorBy == ColorBy::Cell && otherCells);
-    if (otherRows || otherColors) boxes_.setColors(colors_.update(simulation, view_.colorBy));
+    bench_.watchHits(view_.colorBy == ColorBy::SinceHit);
+    if (otherRows || otherColors) {
+        boxes_.setColors(colors_.update(simulation, view_.colorBy, bench_.hits()));
+    }
     if (otherCells) cells_.prepare(simulation.cells());
     runVersion_ = bench_.runVersion();
     cellsVersion_ = bench_.cellsVersion();
@@ -233,7 +243,8 @@ void WindowRun::prepare(const Viewport& viewport) {
 
 void WindowRun::draw(const Viewport& viewport) const {
     glDisable(GL_SCISSOR_TEST);
-    glClearColor(0.051f, 0.063f, 0.078f, 1);
+    const Color& ground = theme.ground;
+    glClearColor(ground.r / 255.0f, ground.g / 255.0f, ground.b / 255.0f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     const double ratio = viewport.pixelRatio;
     const auto pixels = [&](double points) {

@@ -51,10 +51,11 @@ void Workbench::start(Run run, Options options) {
     pacer_ = Pacer(config.step.dt, pacer_.speed());
     listening_ = false;
     contacts_.clear();
+    hits_.clear();
     lastStep_ = {};
     selected_.reset();
     following_ = false;
-    watchContacts(watching_);
+    listen();
     ++cellsVersion_;
     ++runVersion_;
 }
@@ -223,7 +224,7 @@ void Workbench::nextResolver() {
 void Workbench::select(std::optional<Entity> entity) {
     selected_ = entity;
     if (!entity) following_ = false;
-    watchContacts(watching_);
+    listen();
 }
 
 std::optional<Entity> Workbench::selected() const {
@@ -235,11 +236,23 @@ void Workbench::toggleFollow() { following_ = !following_ && selected(); }
 
 void Workbench::watchContacts(bool wanted) {
     watching_ = wanted;
-    // A simulation with a listener hands out every contact; it gets one when there is a use.
-    if (listening_ || !(watching_ || selected_)) return;
+    listen();
+}
+
+void Workbench::watchHits(bool wanted) {
+    if (wanted == watchingHits_) return;
+    watchingHits_ = wanted;
+    hits_.clear();  // what happened meanwhile is not known
+    listen();
+}
+
+/// A simulation with a listener hands out every contact; it gets one when there is a use.
+void Workbench::listen() {
+    if (listening_ || !(watching_ || watchingHits_ || selected_)) return;
     listening_ = true;
     session_->simulation().onContact([this](const Contact& contact) {
         if (watching_ || selected_) contacts_.push_back(contact);
+        if (watchingHits_) hits_.record(contact);
     });
 }
 

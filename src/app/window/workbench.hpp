@@ -10,6 +10,7 @@
 
 #include "app/options.hpp"
 #include "app/run_session.hpp"
+#include "app/window/hit_times.hpp"
 #include "app/window/pacer.hpp"
 #include "app/window/phase_history.hpp"
 
@@ -81,6 +82,9 @@ class Workbench {
     /// The contacts of the last step, from the first step after they were asked for.
     void watchContacts(bool wanted);
     const std::vector<Contact>& contacts() const { return contacts_; }
+    /// When bodies were last hit, from the first step after that was asked for.
+    void watchHits(bool wanted);
+    const HitTimes& hits() const { return hits_; }
 
     void say(std::string text, bool isError = false);
     /// The message to show, or null.
@@ -93,6 +97,7 @@ class Workbench {
     /// Throws what Simulation::reconfigure throws.
     void apply(SimulationConfig config);
     void sayFallback();
+    void listen();
     void step();
     bool done() const { return session_->allFramesDone(); }
 
@@ -106,8 +111,9 @@ class Workbench {
 
     std::optional<Entity> selected_;
     bool following_ = false;
-    bool watching_ = false, listening_ = false;
+    bool watching_ = false, watchingHits_ = false, listening_ = false;
     std::vector<Contact> contacts_;
+    HitTimes hits_;
     Message message_;
 };
 
