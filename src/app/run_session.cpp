@@ -55,17 +55,20 @@ RunSession::RunSession(Run run, const Options& options)
 const StepReport& RunSession::step() {
     keepCheckpoint();
     const StepReport* report = nullptr;
-    std::chrono::duration<double> seconds{};
+    std::chrono::duration<double> seconds{}, followed{};
     const auto age = Clock::now() - checkpoint_->taken;
     watch_.section(std::max<Clock::duration>(leastGrace, age), [&] {
         const auto before = Clock::now();
         report = &run_.simulation.step();
-        seconds = Clock::now() - before;
+        const auto stepped = Clock::now();
+        seconds = stepped - before;
         if (meter_) meter_->follow();
+        followed = Clock::now() - stepped;
     });
     if (std::exchange(progressShown_, false)) progressLine().wipe();
     const double milliseconds =
         1e3 * (seconds.count() - report->auditSeconds - report->observeSeconds);
+    errorSeconds_ = followed.count() + report->auditSeconds;
     statistics_.add(*report, milliseconds);
     if (events_) {
         for (const Contact& contact : run_.simulation.contacts()) events_->record(contact);

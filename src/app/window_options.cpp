@@ -32,22 +32,27 @@ int takeSide(std::string_view& text) {
     return value;
 }
 
-bool parseSize(std::string_view text, int& width, int& height) {
-    width = takeSide(text);
-    if (width < 0 || text.empty() || (text.front() != ',' && text.front() != 'x')) return false;
+std::optional<WindowSize> parseSize(std::string_view text) {
+    const int width = takeSide(text);
+    if (width < 0 || text.empty() || (text.front() != ',' && text.front() != 'x')) return {};
     text.remove_prefix(1);
-    height = takeSide(text);
-    return height >= 0 && text.empty();
+    const int height = takeSide(text);
+    if (height < 0 || !text.empty()) return {};
+    return WindowSize{width, height};
+}
+
+/// Not a number if the text is none.
+double parseNumber(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? value : std::nan("");
 }
 
 /// A factor from 1/64 to 64, or "max"; not a number if it is neither.
 double parseSpeed(std::string_view text) {
     if (text == "max") return 0;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool valid = error == std::errc() && end == text.data() + text.size() &&
-                       value >= 1.0 / 64 && value <= 64;
-    return valid ? value : std::nan("");
+    const double value = parseNumber(text);
+    return value >= 1.0 / 64 && value <= 64 ? value : std::nan("");
 }
 
 }  // namespace
@@ -65,13 +70,24 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
     app.add_option_function<std::string>(
            "--size,--window-size",
            [&options, refuse](const std::string& text) {
-               if (parseSize(text, options.width, options.height)) return;
+               options.size = parseSize(text);
+               if (options.size) return;
                refuse("--size", text, "is not WIDTH,HEIGHT with sides from 64 to 16384");
            },
-           "Size of the window (1280x720)")
+           "Size of the window (1280x720, times the scale)")
         ->type_name("W,H")
         ->group(group);
     app.add_flag("!--hide-panels", options.panels, "Start without the panels")->group(group);
+    app.add_option_function<std::string>(
+           "--scale",
+           [&options, refuse](const std::string& text) {
+               options.scale = parseNumber(text);
+               if (*options.scale >= 0.5 && *options.scale <= 4) return;
+               refuse("--scale", text, "is not a number from 0.5 to 4");
+           },
+           "Size of text and panels (the display's; 1 with --offscreen)")
+        ->type_name("FACTOR")
+        ->group(group);
     app.add_flag("--paused", options.paused, "Start paused")->group(group);
     app.add_option_function<std::string>(
            "--speed",

@@ -27,10 +27,15 @@ struct Overlays {
     bool arrows = false;  ///< velocities
 };
 
+struct WindowSize {
+    int width, height;  ///< points
+};
+
 /// The part of the command line that concerns the window.
 struct WindowOptions {
-    bool offscreen = false;          ///< the same pictures, without a screen
-    int width = 1280, height = 720;  ///< points
+    bool offscreen = false;  ///< the same pictures, without a screen
+    std::optional<WindowSize> size;
+    std::optional<double> scale;  ///< of text and panels; otherwise the display's
     bool panels = true;
     bool paused = false;
     /// Seconds of the simulation per second; 0 for a step in every picture.

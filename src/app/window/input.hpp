@@ -12,7 +12,7 @@ namespace quadrille::app {
 class Input {
   public:
     /// `rect` is the part of the window that shows the world.
-    void handle(const SDL_Event& event, const ScreenRect& rect, const Gui& gui, Workbench& bench,
+    void handle(const SDL_Event& event, const ScreenRect& rect, Gui& gui, Workbench& bench,
                 ViewState& view);
 
   private:

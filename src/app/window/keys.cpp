@@ -49,12 +49,14 @@ constexpr KeyCommand commands[] = {
          v.colorBy = static_cast<ColorBy>(next);
      }},
     {SDLK_f, false, "F", "follow the selected entity", [](B b, V) { b.toggleFollow(); }},
-    {SDLK_ESCAPE, false, "Esc", "close help, then select nothing",
+    {SDLK_ESCAPE, false, "Esc", "close the innermost: list, help,\nselection, full screen",
      [](B b, V v) {
          if (v.help) {
              v.help = false;
-         } else {
+         } else if (b.selected()) {
              b.select(std::nullopt);
+         } else {
+             v.fullScreen = false;
          }
      }},
     {SDLK_HOME, false, "Home  0", "show all", [](B, V v) { v.fit = true; }},
@@ -87,6 +89,7 @@ constexpr KeyCommand commands[] = {
     {SDLK_KP_PLUS, true, nullptr, "", [](B, V v) { ++v.scaleSteps; }},
     {SDLK_MINUS, true, nullptr, "", [](B, V v) { --v.scaleSteps; }},
     {SDLK_KP_MINUS, true, nullptr, "", [](B, V v) { --v.scaleSteps; }},
+    {SDLK_F11, false, "F11", "full screen", [](B, V v) { v.fullScreen = !v.fullScreen; }},
     {SDLK_F12, false, "F12  P", "screenshot", [](B, V v) { v.screenshot = true; }},
     {SDLK_p, false, nullptr, "", [](B, V v) { v.screenshot = true; }},
     {SDLK_F1, false, "F1  H", "this help", [](B, V v) { v.help = !v.help; }},

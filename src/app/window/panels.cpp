@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <imgui.h>
+#include <imgui_internal.h>  // how long the mouse has rested
 
 namespace quadrille::app {
 
 namespace {
 
-constexpr double columnPoints = 300;
+constexpr double columnPoints = 320;
 
 }  // namespace
 
@@ -17,8 +18,23 @@ ScreenRect worldRect(const ViewState& view, double scale, int width, int height)
     return {column, 0, std::max(1.0, width - column), std::max(1.0, double(height))};
 }
 
-bool sectionHeader(const char* label) {
-    return ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
+bool sectionHeader(const char* label, const char* meaning) {
+    const bool open = ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
+    tooltip(meaning);
+    return open;
+}
+
+void tooltip(const char* text) {
+    constexpr float restSeconds = 0.4f;
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    // A text knows not how long the mouse has been over it.
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    if (gui.HoveredId != 0 && gui.HoveredIdTimer < restSeconds) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
 }
 
 void showPanels(const PanelContext& context) {

@@ -28,7 +28,10 @@ void showPanels(const PanelContext& context);
 // ---- their parts
 
 /// The title of a part of the column, which a click folds; whether it is open.
-bool sectionHeader(const char* label);
+bool sectionHeader(const char* label, const char* meaning);
+
+/// Says what the item before is for, once the mouse rests on it.
+void tooltip(const char* text);
 
 void showRunPanel(const PanelContext& context);
 void showCollisionsPanel(const PanelContext& context);

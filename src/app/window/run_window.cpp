@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <epoxy/gl.h>
+#include <numeric>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/interrupt.hpp"
@@ -57,7 +59,8 @@ class WindowRun {
     void draw(const Viewport& viewport) const;
     void takeScreenshots(bool last);
     void finishPhase(ShowPhase phase);
-    void recordPhases();
+    void countPicture();
+    void recordPhases(double pictureSeconds);
     void updateTitle();
     ScreenRect rect() const { return worldRect(view_, gui_.scale(), size_.width, size_.height); }
 
@@ -75,9 +78,12 @@ class WindowRun {
     PhaseHistory history_;
 
     SdlWindow::Size size_;
+    bool fullScreen_ = false;
     bool vsync_ = false, hasVsync_ = false;  // what was asked for, and what the driver does
     Clock::time_point pictureStart_, phaseStart_;
-    std::array<double, showPhaseCount> phases_{};                       // s, of this picture
+    std::array<double, showPhaseCount> phases_{};  // s, of this picture
+    double waited_ = 0;                            // s, after this picture
+    bool shownOne_ = false;
     std::uint64_t runVersion_ = 0, cellsVersion_ = 0, stepsShown_ = 0;  // of what the layers hold
     int idlePictures_ = 0;                                              // since the last event
     ColorBy colorBy_ = ColorBy::Entity;
@@ -87,8 +93,8 @@ class WindowRun {
 WindowRun::WindowRun(const Options& options)
     : options_(options),
       bench_(options),
-      window_(options.window.width, options.window.height, options.window.offscreen),
-      gui_(window_),
+      window_(options.window.size, options.window.scale, options.window.offscreen),
+      gui_(window_, window_.scale()),
       size_(window_.size()) {
     view_.overlays = options.window.overlays;
     view_.colorBy = options.window.colorBy;
@@ -108,7 +114,7 @@ int WindowRun::loop() {
     while (true) {
         const double elapsed = secondsSince(pictureStart_);
         pictureStart_ = Clock::now();
-        phases_ = {};
+        recordPhases(elapsed);
         takeEvents();
         beginPanels();
         for (const SDL_Event& event : events_) input_.handle(event, rect(), gui_, bench_, view_);
@@ -125,12 +131,14 @@ int WindowRun::loop() {
 
 void WindowRun::wait() {
     if (bench_.speed() == 0 && !bench_.paused()) return;
+    const auto before = Clock::now();
     const double interval = hasVsync_ ? withVsync : withoutVsync;
     std::this_thread::sleep_until(pictureStart_ + std::chrono::duration_cast<Clock::duration>(
                                                       std::chrono::duration<double>(interval)));
     // Nothing moves, and the panels have settled: rest until the user does something.
     const bool resting = bench_.paused() && ++idlePictures_ > settlingPictures;
     if (resting) SDL_WaitEventTimeout(nullptr, restMilliseconds);
+    waited_ = secondsSince(before);
 }
 
 /// The panels say whose the mouse is, for one place of it in a picture: what happens after it has
@@ -161,6 +169,10 @@ void WindowRun::beginPanels() {
         vsync_ = view_.vsync;
         hasVsync_ = window_.setVsync(vsync_);
         if (vsync_ && !hasVsync_) bench_.say("this driver has no vsync");
+    }
+    if (view_.fullScreen != fullScreen_) {
+        fullScreen_ = view_.fullScreen;
+        if (!window_.setFullScreen(fullScreen_)) bench_.say("this screen has no full screen");
     }
     gui_.beginFrame();
     finishPhase(ShowPhase::Gui);
@@ -216,7 +228,7 @@ void WindowRun::showPicture(bool last) {
     phaseStart_ = Clock::now();
     window_.present();
     finishPhase(ShowPhase::Present);
-    recordPhases();
+    countPicture();
 }
 
 void WindowRun::prepare(const Viewport& viewport) {
@@ -275,19 +287,30 @@ void WindowRun::takeScreenshots(bool last) {
     }
 }
 
-void WindowRun::recordPhases() {
+void WindowRun::countPicture() {
     Shown& shown = *bench_.session().statistics().shown;
     shown.width = size_.pixelWidth;
     shown.height = size_.pixelHeight;
     ++shown.pictures;
+    for (std::size_t i = 0; i < showPhaseCount; ++i) shown.seconds[i] += phases_[i];
+}
+
+/// Of the picture before, which has ended with the wait for this one.
+void WindowRun::recordPhases(double pictureSeconds) {
     PhaseHistory::Row row{};
     const auto steps = bench_.takePhases();
     for (std::size_t i = 0; i < phaseCount; ++i) row[i] = static_cast<float>(1e3 * steps[i]);
     for (std::size_t i = 0; i < showPhaseCount; ++i) {
-        shown.seconds[i] += phases_[i];
         row[phaseCount + i] = static_cast<float>(1e3 * phases_[i]);
     }
-    history_.add(row);
+    row[PhaseHistory::Error] = static_cast<float>(1e3 * bench_.takeErrorSeconds());
+    row[PhaseHistory::Wait] = static_cast<float>(1e3 * waited_);
+    const float known = std::accumulate(row.begin(), row.end(), 0.0f);
+    row[PhaseHistory::Unaccounted] =
+        std::max(static_cast<float>(1e3 * pictureSeconds) - known, 0.0f);
+    if (std::exchange(shownOne_, true)) history_.add(row);
+    phases_ = {};
+    waited_ = 0;
 }
 
 /// "balanced, step 120, paused", a few times a second while it runs.

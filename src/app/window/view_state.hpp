@@ -13,6 +13,7 @@ struct ViewState {
     bool panels = true;
     bool help = false;
     bool vsync = true;
+    bool fullScreen = false;
 
     bool fit = true;  ///< show all of the world, until the user moves the camera
 

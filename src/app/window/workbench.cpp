@@ -117,10 +117,13 @@ void Workbench::step() {
     cellsVersion_ += lastStep_.rebuilt;
     for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
 }
+    errorSeconds_ += session_->errorSeconds();
 
 std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(phases_, {}); }
 
 // ---- the run
+double Workbench::takeErrorSeconds() { return std::exchange(errorSeconds_, 0); }
+
 
 void Workbench::reset() { restart(*options_, "started anew"); }
 

@@ -51,6 +51,8 @@ class Workbench {
     /// What the steps took since the last call, by phase in s.
     std::array<double, phaseCount> takePhases();
 
+    /// And what --error took beside them.
+    double takeErrorSeconds();
     /// Of the last step, or empty before the first.
     const StepReport& lastStep() const { return lastStep_; }
 
@@ -109,6 +111,7 @@ class Workbench {
     std::array<double, phaseCount> phases_{};
     std::uint64_t cellsVersion_ = 0, runVersion_ = 0;
 
+    double errorSeconds_ = 0;
     std::optional<Entity> selected_;
     bool following_ = false;
     bool watching_ = false, watchingHits_ = false, listening_ = false;
