@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/one_of.hpp"
+#include "app/video_format.hpp"
 
 namespace quadrille::app {
 
@@ -65,7 +66,7 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
         throw CLI::ValidationError(option, "'" + text + "' " + reason);
     };
     app.add_flag("--offscreen", options.offscreen,
-                 "Draw the window's pictures without a screen, for --screenshot")
+                 "Draw the window's pictures without a screen, for --screenshot and --video")
         ->group(group);
     app.add_option_function<std::string>(
            "--size,--window-size",
@@ -77,7 +78,6 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
            "Size of the window (1280x720, times the scale)")
         ->type_name("W,H")
         ->group(group);
-    app.add_flag("!--hide-panels", options.panels, "Start without the panels")->group(group);
     app.add_option_function<std::string>(
            "--scale",
            [&options, refuse](const std::string& text) {
@@ -88,6 +88,7 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
            "Size of text and panels (the display's; 1 with --offscreen)")
         ->type_name("FACTOR")
         ->group(group);
+    app.add_flag("!--hide-panels", options.panels, "Start without the panels")->group(group);
     app.add_flag("--paused", options.paused, "Start paused")->group(group);
     app.add_option_function<std::string>(
            "--speed",
@@ -97,8 +98,8 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
                    refuse("--speed", text, "is neither a number from 1/64 to 64 nor max");
                }
            },
-           "Seconds of the simulation per second, or max: a step in every picture (1; max with "
-           "--offscreen)")
+           "Seconds of the simulation per second, of the video with --video, or max: a step in "
+           "every picture (1; max with --offscreen and no --video)")
         ->type_name("FACTOR")
         ->group(group);
     app.add_option_function<std::vector<std::string>>(
@@ -132,6 +133,23 @@ void declareWindowOptions(CLI::App& app, WindowOptions& options) {
         })
         ->type_name("FILE")
         ->group(group);
+    auto* const video = app.add_option("--video", options.video,
+                                       "Write all that is shown as a film, with ffmpeg, or without "
+                                       "it as Y4M: " +
+                                           videoEndings())
+                            ->check([](const std::string& text) {
+                                return isVideoName(text)
+                                           ? std::string()
+                                           : "'" + text + "' ends in none of " + videoEndings();
+                            })
+                            ->type_name("FILE")
+                            ->group(group);
+    app.add_option("--frame-rate", options.frameRate, "Pictures per second of the film")
+        ->check(CLI::Range(1, 240))
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(group)
+        ->needs(video);
 }
 
 }  // namespace quadrille::app

@@ -44,6 +44,8 @@ struct WindowOptions {
     Overlays overlays;
     ColorBy colorBy = ColorBy::Entity;
     std::string screenshot;  ///< file name, or empty
+    std::string video;       ///< file name, or empty
+    int frameRate = 60;      ///< of the video, pictures per second
 };
 
 /// Adds the options of the group "Window".

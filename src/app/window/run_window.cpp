@@ -6,6 +6,7 @@
 #include <cmath>
 #include <epoxy/gl.h>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "app/window/input.hpp"
 #include "app/window/overlay.hpp"
 #include "app/window/panels.hpp"
+#include "app/window/recording.hpp"
 #include "app/window/screenshot.hpp"
 #include "app/window/sdl_window.hpp"
 #include "app/window/text.hpp"
@@ -72,6 +74,7 @@ class WindowRun {
     BoxLayer boxes_;
     CellLayer cells_;
     BodyColors colors_;
+    std::optional<Recording> film_;
     Input input_;
     std::vector<SDL_Event> events_;  // of this picture
     Measures measures_;
@@ -100,6 +103,10 @@ WindowRun::WindowRun(const Options& options)
     view_.colorBy = options.window.colorBy;
     view_.vsync = options.window.vsync;
     view_.panels = options.window.panels;
+    if (!options.window.video.empty()) {
+        film_.emplace(options, size_);
+        view_.vsync = false;  // the film sets the pace
+    }
     vsync_ = view_.vsync;
     hasVsync_ = window_.setVsync(vsync_);
     bench_.watchContacts(view_.overlays.contacts);
@@ -118,14 +125,15 @@ int WindowRun::loop() {
         takeEvents();
         beginPanels();
         for (const SDL_Event& event : events_) input_.handle(event, rect(), gui_, bench_, view_);
-        bench_.advance(elapsed);
+        bench_.advance(film_ ? film_->secondsSinceLast() : elapsed);
         const RunSession& session = bench_.session();
         const bool last =
             view_.quit || interruptedBy() != 0 || session.allFramesDone() || session.timeIsUp();
         showPicture(last);
         if (last) break;
-        wait();
+        if (!film_) wait();
     }
+    if (film_) film_->commit();
     return bench_.session().finish();
 }
 
@@ -224,6 +232,7 @@ void WindowRun::showPicture(bool last) {
     gui_.draw();
     finishPhase(ShowPhase::Gui);
     takeScreenshots(last);
+    if (film_ && !bench_.paused()) film_->add(bench_.session(), size_);
     updateTitle();
     phaseStart_ = Clock::now();
     window_.present();

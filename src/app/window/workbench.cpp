@@ -30,7 +30,8 @@ Kind nextOf(std::span<const Named<Kind>> all, Kind kind, std::size_t further) {
 }  // namespace
 
 Workbench::Workbench(const Options& options)
-    : pacer_(1, options.window.speed.value_or(options.window.offscreen ? 0 : 1)),
+    : filmed_(!options.window.video.empty()),
+      pacer_(1, options.window.speed.value_or(options.window.offscreen && !filmed_ ? 0 : 1)),
       paused_(options.window.paused) {
     start(setUp(options), options);
 }
@@ -101,7 +102,7 @@ int Workbench::advance(double seconds) {
     while (!done() && pacer_.take(steps)) {
         step();
         ++steps;
-        if (Clock::now() - start > longestStepping) {
+        if (!filmed_ && Clock::now() - start > longestStepping) {
             pacer_.drop();
             break;
         }
@@ -116,14 +117,14 @@ void Workbench::step() {
     if (config().resolver != before) sayFallback();
     cellsVersion_ += lastStep_.rebuilt;
     for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
-}
     errorSeconds_ += session_->errorSeconds();
+}
 
 std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(phases_, {}); }
 
-// ---- the run
 double Workbench::takeErrorSeconds() { return std::exchange(errorSeconds_, 0); }
 
+// ---- the run
 
 void Workbench::reset() { restart(*options_, "started anew"); }
 

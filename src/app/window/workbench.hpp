@@ -46,13 +46,14 @@ class Workbench {
     /// To the next of the speeds that the window offers: x1/4 to x8, then as fast as it can.
     void changeSpeed(bool faster);
 
-    /// Runs the steps that are due after `seconds` of wall time; returns how many there were.
+    /// Runs the steps that are due after `seconds` of wall time, or of a film's, which drops none
+    /// however long they take; returns how many there were.
     int advance(double seconds);
     /// What the steps took since the last call, by phase in s.
     std::array<double, phaseCount> takePhases();
-
     /// And what --error took beside them.
     double takeErrorSeconds();
+
     /// Of the last step, or empty before the first.
     const StepReport& lastStep() const { return lastStep_; }
 
@@ -105,13 +106,14 @@ class Workbench {
 
     std::unique_ptr<Options> options_;  // the session refers to them
     std::unique_ptr<RunSession> session_;
+    bool filmed_;
     Pacer pacer_;
     bool paused_;
     StepReport lastStep_;
     std::array<double, phaseCount> phases_{};
+    double errorSeconds_ = 0;
     std::uint64_t cellsVersion_ = 0, runVersion_ = 0;
 
-    double errorSeconds_ = 0;
     std::optional<Entity> selected_;
     bool following_ = false;
     bool watching_ = false, watchingHits_ = false, listening_ = false;
