@@ -355,13 +355,14 @@ bool collide(const std::string& output, const std::string& other) {
 
 /// Two outputs would write over each other, under one name or two, and an output over an input.
 void refuseSharedFiles(const Options& options) {
-    const std::array<std::pair<const char*, const std::string*>, 6> outputs = {{
+    const std::array<std::pair<const char*, const std::string*>, 7> outputs = {{
         {"--json", &options.json},
         {"--csv", &options.csv},
         {"--dump-state", &options.dumpState},
         {"--dump-events", &options.dumpEvents},
         {"--save", &options.save},
         {"--screenshot", &options.window.screenshot},
+        {"--video", &options.window.video},
     }};
     const auto refuse = [](const char* first, const char* second) {
         throw UsageError(std::string(first) + " and " + second + " name the same file");
@@ -394,8 +395,11 @@ void interpret(Options& options, const RawOptions& raw) {
     if (options.headless && options.window.offscreen) {
         throw UsageError("--offscreen draws what --headless leaves out: give one of the two");
     }
-    if (options.headless && !options.window.screenshot.empty()) {
-        throw UsageError("--screenshot: there is nothing to see with --headless");
+    for (const auto& [option, file] : {std::pair("--screenshot", &options.window.screenshot),
+                                       std::pair("--video", &options.window.video)}) {
+        if (options.headless && !file->empty()) {
+            throw UsageError(std::string(option) + ": there is nothing to see with --headless");
+        }
     }
     int onStdout = 0;
     for (const std::string* file :

@@ -59,15 +59,19 @@ RunSession::RunSession(Run run, const Options& options)
 const StepReport& RunSession::step() {
     keepCheckpoint();
     std::optional<TimedStep> step;
+    std::chrono::duration<double> followed{};
     const auto age = Clock::now() - checkpoint_->taken;
     watch_.section(std::max<Clock::duration>(leastGrace, age), [&] {
         step.emplace(timedStep(run_.simulation));
+        const auto stepped = Clock::now();
         if (meter_) meter_->follow();
+        followed = Clock::now() - stepped;
         if (beside_) beside_->follow();
     });
     if (std::exchange(progressShown_, false)) progressLine().wipe();
     const StepReport& report = step->report;
     const double milliseconds = step->milliseconds;
+    errorSeconds_ = followed.count() + report.auditSeconds;
     statistics_.add(report, milliseconds);
     if (beside_) beside_->compare(milliseconds);
     if (events_) {

@@ -47,6 +47,11 @@ class RunSession {
     /// the end of the frame before.
     const StepReport& step();
 
+    /// Whether --error compares the run with the reference.
+    bool measuresError() const { return meter_.has_value(); }
+    /// What that took of the last frame, s.
+    double errorSeconds() const { return errorSeconds_; }
+
     /// Changes what a step is made with, as Simulation::reconfigure does.
     void reconfigure(const SimulationConfig& config);
 
@@ -89,6 +94,7 @@ class RunSession {
     std::optional<EventRecorder> events_;
     std::optional<accuracy::ErrorMeter> meter_;
     std::optional<RunBeside> beside_;
+    double errorSeconds_ = 0;
     Conserved start_;
     RunStatistics statistics_;
     Clock::time_point begin_;

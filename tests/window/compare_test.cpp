@@ -34,7 +34,7 @@ static = true
 color = "#00ff00"
 )";
 
-constexpr Rgb right = fillOf({0x6f, 0x8f, 0xb0}), wrong = fillOf({0xff, 0x3b, 0x30});
+constexpr Rgb right = fillOf({0x6f, 0x8f, 0xb0}), wrong = fillOf({0xff, 0x50, 0x42});
 
 class WindowCompare : public WindowTest {
   protected:

@@ -56,6 +56,9 @@ class Screen {
     Image image();
     Rgb pixel(int x, int y) { return image().at(x, y); }
 
+    /// What the settings of a desktop say of the size of text.
+    void wantDotsPerInch(int dots);
+
     void moveMouse(int x, int y);
     void click(int x, int y);
     void drag(int fromX, int fromY, int toX, int toY);
@@ -66,6 +69,9 @@ class Screen {
     /// Gives the window the keyboard; without a window manager nobody else does.
     void focus();
     void resize(int width, int height);
+    /// Presses a key, and says whether the window then asks its manager for all of the screen, or
+    /// for its own size again.
+    bool asksForFullScreen(const std::string& key, bool full);
     /// What the close button does.
     void close();
     /// Drags a file over the window and drops it there (the protocol XDND).

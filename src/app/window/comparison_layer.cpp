@@ -5,7 +5,7 @@ namespace quadrille::app {
 namespace {
 
 // The colours of a scene would hide what is red.
-constexpr Color rightColor{0x6f, 0x8f, 0xb0}, wrongColor{0xff, 0x3b, 0x30};
+constexpr Color rightColor{0x6f, 0x8f, 0xb0}, wrongColor{0xff, 0x50, 0x42};
 
 }  // namespace
 

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <imgui.h>
 #include <string>
 #include <vector>
 
+#include "app/window/nice_numbers.hpp"
 #include "app/window/text.hpp"
+#include "app/window/theme.hpp"
 
 namespace quadrille::app {
 
 namespace {
 
-constexpr ImU32 ground = IM_COL32(22, 26, 31, 255), frame = IM_COL32(56, 64, 74, 255);
-constexpr ImU32 text = IM_COL32(235, 238, 242, 255), faint = IM_COL32(160, 170, 182, 255);
-constexpr ImU32 red = IM_COL32(255, 92, 80, 255);
 /// Of the two lines of a plot.
 constexpr std::array<ImU32, 2> lineColors = {IM_COL32(255, 176, 64, 255),
                                              IM_COL32(96, 190, 255, 255)};
@@ -34,25 +32,13 @@ struct Plot {
     bool spikes = false;  ///< a few values far above the others may leave the plot
 };
 
-/// The least of 1, 2 and 5 times a power of ten that is not below it.
-double niceTop(double value) {
-    if (!(value > 0)) return 1;
-    const double power = std::pow(10, std::floor(std::log10(value)));
-    for (const double digit : {1.0, 2.0, 5.0}) {
-        if (value <= digit * power) return digit * power;
-    }
-    return 10 * power;
-}
-
 double topOf(const Plot& plot, const std::vector<ComparisonPoint>& points) {
-    std::vector<double> values;
+    std::vector<float> values;
     for (const ComparisonPoint& point : points) {
-        for (const double value : point.*plot.values) values.push_back(value);
+        for (const double value : point.*plot.values) values.push_back(float(value));
     }
-    if (values.empty()) return 1;
-    const std::size_t rank = plot.spikes ? values.size() * 19 / 20 : values.size() - 1;
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
-    return niceTop(values[rank]);
+    const double top = niceCeiling(percentile(values, plot.spikes ? 0.95 : 1));
+    return top > 0 ? top : 1;
 }
 
 std::string valueText(const Plot& plot, double value) {
@@ -64,11 +50,11 @@ void drawPlot(ImDrawList& list, const Plot& plot, const ScreenRect& rect, double
               const std::vector<ComparisonPoint>& points) {
     const float line = ImGui::GetFontSize();
     const auto pad = float(5 * scale);
-    list.AddRectFilled(low(rect), high(rect), ground);
-    list.AddRect(low(rect), high(rect), frame);
+    list.AddRectFilled(low(rect), high(rect), packed(theme.panel));
+    list.AddRect(low(rect), high(rect), packed(theme.border));
     const ImVec2 from(low(rect).x + pad, low(rect).y + 2 * line + 2 * pad);
     const ImVec2 to(high(rect).x - pad, high(rect).y - line - pad);
-    list.AddText({from.x, low(rect).y + pad / 2}, faint, plot.title);
+    list.AddText({from.x, low(rect).y + pad / 2}, packed(theme.faintText), plot.title);
     float x = from.x;
     for (std::size_t k = 0; k < 2; ++k) {
         const double now = points.empty() ? 0 : (points.back().*plot.values)[k];
@@ -77,24 +63,32 @@ void drawPlot(ImDrawList& list, const Plot& plot, const ScreenRect& rect, double
         x += ImGui::CalcTextSize(legend.c_str()).x + 2 * pad;
     }
     const double top = topOf(plot, points);
-    list.AddLine({from.x, from.y}, {to.x, from.y}, frame);
-    list.AddLine({from.x, to.y}, {to.x, to.y}, frame);
-    list.AddText({from.x, from.y}, faint,
+    list.AddLine({from.x, from.y}, {to.x, from.y}, packed(theme.border));
+    list.AddLine({from.x, to.y}, {to.x, to.y}, packed(theme.border));
+    list.AddText({from.x, from.y}, packed(theme.faintText),
                  plot.counts ? grouped(std::uint64_t(top)).c_str() : formatted("%g", top).c_str());
     const double end = points.empty() ? 0 : points.back().time;
     const std::string endText = formatted("%.3g s", end);
-    list.AddText({from.x, to.y + 1}, faint, "0");
-    list.AddText({to.x - ImGui::CalcTextSize(endText.c_str()).x, to.y + 1}, faint, endText.c_str());
+    list.AddText({from.x, to.y + 1}, packed(theme.faintText), "0");
+    list.AddText({to.x - ImGui::CalcTextSize(endText.c_str()).x, to.y + 1}, packed(theme.faintText),
+                 endText.c_str());
     if (points.size() < 2 || to.y <= from.y) return;
     // A line along the edge is whole.
     const auto thickness = float(1.5 * scale);
     list.PushClipRect({from.x, from.y - thickness}, {to.x, to.y + thickness}, true);
+    // Of the points that would share some pixels, the highest is shown.
+    const auto bins = std::max<std::size_t>(2, std::size_t(double(to.x - from.x) / (3 * scale)));
+    const std::size_t each = (points.size() + bins - 1) / bins;
     std::vector<ImVec2> path;
     for (std::size_t k = 2; k-- > 0;) {
         path.clear();
-        for (const ComparisonPoint& point : points) {
-            path.emplace_back(from.x + float(point.time / end) * (to.x - from.x),
-                              to.y - float((point.*plot.values)[k] / top) * (to.y - from.y));
+        for (std::size_t i = 0; i < points.size(); i += each) {
+            const std::size_t past = std::min(i + each, points.size());
+            double most = 0;
+            for (std::size_t j = i; j < past; ++j)
+                most = std::max(most, (points[j].*plot.values)[k]);
+            path.emplace_back(from.x + float(points[past - 1].time / end) * (to.x - from.x),
+                              to.y - float(most / top) * (to.y - from.y));
         }
         list.AddPolyline(path.data(), int(path.size()), lineColors[k], 0, thickness);
     }
@@ -103,13 +97,13 @@ void drawPlot(ImDrawList& list, const Plot& plot, const ScreenRect& rect, double
 
 void drawName(ImDrawList& list, const ScreenRect& rect, double scale, const std::string& name,
               const std::string& about, bool bad) {
-    list.AddRectFilled(low(rect), high(rect), ground);
+    list.AddRectFilled(low(rect), high(rect), packed(theme.panel));
     const auto pad = float(8 * scale);
     const float y = low(rect).y + (float(rect.height) - ImGui::GetFontSize()) / 2;
     list.PushClipRect(low(rect), high(rect), true);
-    list.AddText({low(rect).x + pad, y}, text, name.c_str());
-    list.AddText({high(rect).x - pad - ImGui::CalcTextSize(about.c_str()).x, y}, bad ? red : faint,
-                 about.c_str());
+    list.AddText({low(rect).x + pad, y}, packed(theme.text), name.c_str());
+    list.AddText({high(rect).x - pad - ImGui::CalcTextSize(about.c_str()).x, y},
+                 bad ? packed(theme.errorText) : packed(theme.faintText), about.c_str());
     list.PopClipRect();
 }
 
@@ -124,7 +118,7 @@ void drawSelection(ImDrawList& list, const PanelContext& context, const ScreenRe
     list.PushClipRect(low(view), high(view), true);
     list.AddRect({float(center.x() - half.x()), float(center.y() - half.y())},
                  {float(center.x() + half.x()), float(center.y() + half.y())},
-                 IM_COL32(255, 235, 130, 255), 0, 0, 2);
+                 packed(theme.selection), 0, 0, 2);
     list.PopClipRect();
 }
 
@@ -161,7 +155,7 @@ void showComparison(const PanelContext& context) {
 }
 
 void showComparisonPanel(const PanelContext& context) {
-    if (!sectionHeader("Comparison")) return;
+    if (!sectionHeader("Comparison", "The first run, held against the second.")) return;
     const ComparedFrame* last = context.bench.session().beside()->last();
     const auto labels = context.bench.labels();
     ImGui::TextWrapped("%s, held against %s", labels[0].c_str(), labels[1].c_str());

@@ -40,13 +40,15 @@ void Input::release(const SDL_MouseButtonEvent& event, std::span<const ScreenRec
                         pickPoints / view.camera.zoom()));
 }
 
-void Input::handle(const SDL_Event& event, std::span<const ScreenRect> views, const Gui& gui,
+void Input::handle(const SDL_Event& event, std::span<const ScreenRect> views, Gui& gui,
                    Workbench& bench, ViewState& view) {
     switch (event.type) {
         case SDL_QUIT:
             view.quit = true;
             break;
         case SDL_KEYDOWN:
+            // A list that is open is the innermost thing there is.
+            if (event.key.keysym.sym == SDLK_ESCAPE && gui.closePopup()) break;
             if (!gui.wantsKeyboard()) pressKey(event.key, bench, view);
             break;
         case SDL_MOUSEBUTTONDOWN:

@@ -13,7 +13,7 @@ namespace quadrille::app {
 class Input {
   public:
     /// `views` are the parts of the window that show a world: one, or those of two runs.
-    void handle(const SDL_Event& event, std::span<const ScreenRect> views, const Gui& gui,
+    void handle(const SDL_Event& event, std::span<const ScreenRect> views, Gui& gui,
                 Workbench& bench, ViewState& view);
 
   private:

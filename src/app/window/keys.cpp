@@ -44,20 +44,27 @@ constexpr KeyCommand commands[] = {
          v.overlays.contacts = !v.overlays.contacts;
          b.watchContacts(v.overlays.contacts);
      }},
+    {SDLK_a, false, "A", "arrows: velocities",
+     [](B, V v) { v.overlays.arrows = !v.overlays.arrows; }},
     {SDLK_w, false, "W", "trails of the selected, or of all",
      [](B b, V v) {
          v.overlays.trails = !v.overlays.trails;
          b.watchTrails(v.overlays.trails);
      }},
-    {SDLK_v, false, "V", "colour by entity, speed, cell",
-     [](B, V v) { v.colorBy = static_cast<ColorBy>((static_cast<int>(v.colorBy) + 1) % 3); }},
+    {SDLK_v, false, "V", "colour by entity, speed, energy,\ntime since the last hit, cell",
+     [](B, V v) {
+         const auto next = (static_cast<std::size_t>(v.colorBy) + 1) % colorings().size();
+         v.colorBy = static_cast<ColorBy>(next);
+     }},
     {SDLK_f, false, "F", "follow the selected entity", [](B b, V) { b.toggleFollow(); }},
-    {SDLK_ESCAPE, false, "Esc", "close help, then select nothing",
+    {SDLK_ESCAPE, false, "Esc", "close the innermost: list, help,\nselection, full screen",
      [](B b, V v) {
          if (v.help) {
              v.help = false;
-         } else {
+         } else if (b.selected()) {
              b.select(std::nullopt);
+         } else {
+             v.fullScreen = false;
          }
      }},
     {SDLK_HOME, false, "Home  0", "show all", [](B, V v) { v.fit = true; }},
@@ -90,6 +97,7 @@ constexpr KeyCommand commands[] = {
     {SDLK_KP_PLUS, true, nullptr, "", [](B, V v) { ++v.scaleSteps; }},
     {SDLK_MINUS, true, nullptr, "", [](B, V v) { --v.scaleSteps; }},
     {SDLK_KP_MINUS, true, nullptr, "", [](B, V v) { --v.scaleSteps; }},
+    {SDLK_F11, false, "F11", "full screen", [](B, V v) { v.fullScreen = !v.fullScreen; }},
     {SDLK_F12, false, "F12  P", "screenshot", [](B, V v) { v.screenshot = true; }},
     {SDLK_p, false, nullptr, "", [](B, V v) { v.screenshot = true; }},
     {SDLK_F1, false, "F1  H", "this help", [](B, V v) { v.help = !v.help; }},

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <imgui.h>
+#include <imgui_internal.h>  // how long the mouse has rested
 
 #include "app/window/comparison_view.hpp"
 #include "app/window/timeline_bar.hpp"
-#include "app/window/trail_lines.hpp"
 
 namespace quadrille::app {
 
 namespace {
 
-constexpr double columnPoints = 300, timelinePoints = 30;
+constexpr double columnPoints = 320, timelinePoints = 34;
 
 ScreenRect besidePanels(const ViewState& view, double scale, int width, int height) {
     const double column = view.panels ? columnPoints * scale : 0;
@@ -36,14 +36,26 @@ ComparisonLayout comparisonLayout(const ViewState& view, double scale, int width
     return layOutComparison(besidePanels(view, scale, width, height), *view.compared, scale);
 }
 
-bool sectionHeader(const char* label) {
-    return ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
+bool sectionHeader(const char* label, const char* meaning) {
+    const bool open = ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
+    tooltip(meaning);
+    return open;
+}
+
+void tooltip(const char* text) {
+    constexpr float restSeconds = 0.4f;
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    // A text knows not how long the mouse has been over it.
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    if (gui.HoveredId != 0 && gui.HoveredIdTimer < restSeconds) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
 }
 
 void showPanels(const PanelContext& context) {
-    showTrails(context);
-    showOverlay(context);
-    if (context.view.compared) showComparison(context);
     if (context.view.panels) {
         ImGui::SetNextWindowPos({0, 0});
         ImGui::SetNextWindowSize({float(columnPoints * context.scale), float(context.height)});

@@ -36,7 +36,10 @@ void showPanels(const PanelContext& context);
 // ---- their parts
 
 /// The title of a part of the column, which a click folds; whether it is open.
-bool sectionHeader(const char* label);
+bool sectionHeader(const char* label, const char* meaning);
+
+/// Says what the item before is for, once the mouse rests on it.
+void tooltip(const char* text);
 
 void showRunPanel(const PanelContext& context);
 void showCollisionsPanel(const PanelContext& context);
@@ -47,8 +50,5 @@ void showLoadPanel(const PanelContext& context);
 void showEntityWindow(const PanelContext& context);
 void showHelpWindow(const PanelContext& context);
 void showMessage(const PanelContext& context);
-
-/// Draws over the world, below the panels: the selected entity, contacts, the heat map's legend.
-void showOverlay(const PanelContext& context);
 
 }  // namespace quadrille::app

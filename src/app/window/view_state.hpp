@@ -15,6 +15,7 @@ struct ViewState {
     bool panels = true;
     bool help = false;
     bool vsync = true;
+    bool fullScreen = false;
 
     bool timeline = false;  ///< there is one, below the world
     /// Where two runs are compared, which share the view: the size of their world, px.

@@ -34,7 +34,8 @@ Kind nextOf(std::span<const Named<Kind>> all, Kind kind, std::size_t further) {
 }  // namespace
 
 Workbench::Workbench(const Options& options)
-    : pacer_(1, options.window.speed.value_or(options.window.offscreen ? 0 : 1)),
+    : filmed_(!options.window.video.empty()),
+      pacer_(1, options.window.speed.value_or(options.window.offscreen && !filmed_ ? 0 : 1)),
       paused_(options.window.paused) {
     start(setUp(options), options);
 }
@@ -70,10 +71,11 @@ void Workbench::start(Run run, Options options) {
     }
     listening_ = false;
     contacts_.clear();
+    hits_.clear();
     lastStep_ = {};
     selected_.reset();
     following_ = false;
-    watchContacts(watching_);
+    listen();
     ++cellsVersion_;
     ++runVersion_;
 }
@@ -124,7 +126,7 @@ int Workbench::advance(double seconds) {
     while (!done() && pacer_.take(steps)) {
         step();
         ++steps;
-        if (Clock::now() - start > longestStepping) {
+        if (!filmed_ && Clock::now() - start > longestStepping) {
             pacer_.drop();
             break;
         }
@@ -141,6 +143,7 @@ void Workbench::step() {
         lastStep_ = session_->step();
         cellsVersion_ += lastStep_.rebuilt;
         for (std::size_t i = 0; i < phaseCount; ++i) phases_[i] += lastStep_.phaseSeconds[i];
+        errorSeconds_ += session_->errorSeconds();
     } while (beside != nullptr && !beside->met() && !done());
     if (config().resolver != before) sayFallback();
     if (beside != nullptr && beside->met()) comparison_.add(*beside->last());
@@ -224,6 +227,8 @@ std::optional<bool> Workbench::sameAsOnTheWay() const {
 }
 
 std::array<double, phaseCount> Workbench::takePhases() { return std::exchange(phases_, {}); }
+
+double Workbench::takeErrorSeconds() { return std::exchange(errorSeconds_, 0); }
 
 // ---- the run
 
@@ -357,7 +362,7 @@ const World& Workbench::world(std::size_t run) const {
 void Workbench::select(std::optional<Entity> entity) {
     selected_ = entity;
     if (!entity) following_ = false;
-    watchContacts(watching_);
+    listen();
 }
 
 std::optional<Entity> Workbench::selected() const {
@@ -369,11 +374,23 @@ void Workbench::toggleFollow() { following_ = !following_ && selected(); }
 
 void Workbench::watchContacts(bool wanted) {
     watching_ = wanted;
-    // A simulation with a listener hands out every contact; it gets one when there is a use.
-    if (listening_ || !(watching_ || selected_)) return;
+    listen();
+}
+
+void Workbench::watchHits(bool wanted) {
+    if (wanted == watchingHits_) return;
+    watchingHits_ = wanted;
+    hits_.clear();  // what happened meanwhile is not known
+    listen();
+}
+
+/// A simulation with a listener hands out every contact; it gets one when there is a use.
+void Workbench::listen() {
+    if (listening_ || !(watching_ || watchingHits_ || selected_)) return;
     listening_ = true;
     session_->simulation().onContact([this](const Contact& contact) {
         if (watching_ || selected_) contacts_.push_back(contact);
+        if (watchingHits_) hits_.record(contact);
     });
 }
 

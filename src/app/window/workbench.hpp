@@ -11,6 +11,7 @@
 #include "app/options.hpp"
 #include "app/run_session.hpp"
 #include "app/window/comparison_history.hpp"
+#include "app/window/hit_times.hpp"
 #include "app/window/pacer.hpp"
 #include "app/window/phase_history.hpp"
 #include "app/window/timeline.hpp"
@@ -49,7 +50,8 @@ class Workbench {
     /// To the next of the speeds that the window offers: x1/4 to x8, then as fast as it can.
     void changeSpeed(bool faster);
 
-    /// Runs the steps that are due after `seconds` of wall time; returns how many there were.
+    /// Runs the steps that are due after `seconds` of wall time, or of a film's, which drops none
+    /// however long they take; returns how many there were.
     int advance(double seconds);
     // ---- the past
 
@@ -78,6 +80,8 @@ class Workbench {
 
     /// What the steps took since the last call, by phase in s.
     std::array<double, phaseCount> takePhases();
+    /// And what --error took beside them.
+    double takeErrorSeconds();
 
     /// Of the last step, or empty before the first.
     const StepReport& lastStep() const { return lastStep_; }
@@ -118,6 +122,9 @@ class Workbench {
     /// The contacts of the last step, from the first step after they were asked for.
     void watchContacts(bool wanted);
     const std::vector<Contact>& contacts() const { return contacts_; }
+    /// When bodies were last hit, from the first step after that was asked for.
+    void watchHits(bool wanted);
+    const HitTimes& hits() const { return hits_; }
 
     /// Where bodies were in the steps that were shown, from when it was asked for.
     void watchTrails(bool wanted);
@@ -134,6 +141,7 @@ class Workbench {
     /// Throws what Simulation::reconfigure throws.
     void apply(SimulationConfig config);
     void sayFallback();
+    void listen();
     void step();
     void movePast(double seconds);
     void showPast();
@@ -144,10 +152,12 @@ class Workbench {
 
     std::unique_ptr<Options> options_;  // the session refers to them
     std::unique_ptr<RunSession> session_;
+    bool filmed_;
     Pacer pacer_;
     bool paused_;
     StepReport lastStep_;
     std::array<double, phaseCount> phases_{};
+    double errorSeconds_ = 0;
     std::uint64_t cellsVersion_ = 0, runVersion_ = 0;
     ComparisonHistory comparison_;
 
@@ -159,10 +169,11 @@ class Workbench {
 
     std::optional<Entity> selected_;
     bool following_ = false;
-    bool watching_ = false, listening_ = false;
+    bool watching_ = false, watchingHits_ = false, listening_ = false;
     std::vector<Contact> contacts_;
     bool watchingTrails_ = false;
     Trails trails_;
+    HitTimes hits_;
     Message message_;
 };
 
