@@ -24,6 +24,7 @@ struct Start {
     World world;
     StepSettings step;
     std::optional<Law> law;
+    std::optional<std::uint64_t> spawned = {};
     std::uint64_t stepsDone = 0;
 };
 
@@ -61,7 +62,8 @@ Start loadStart(const Options& options) {
             .seed = scene.seed,
             .world = std::move(scene.world),
             .step = scene.step,
-            .law = scene.law};
+            .law = scene.law,
+            .spawned = scene.spawned};
 }
 
 /// The law to run, with a warning if it is not the default only because that cannot be run.
@@ -167,7 +169,9 @@ Run setUp(const Options& options) {
     Run run{.scene = std::move(start.scene),
             .seed = start.seed,
             .requestedResolver = options.resolver,
-            .simulation = Simulation(std::move(start.world), config)};
+            .simulation = Simulation(std::move(start.world), config),
+            .lawNamed = start.law.has_value(),
+            .spawned = start.spawned};
     run.simulation.resumeAt(start.stepsDone);
     if (!run.simulation.resolverFailure().empty()) warnOfFallback(run);
     return run;

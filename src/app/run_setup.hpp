@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <quadrille/quadrille.hpp>
@@ -15,6 +16,8 @@ struct Run {
     std::uint64_t seed;
     ResolverKind requestedResolver;
     Simulation simulation;
+    bool lawNamed = false;                      ///< by the scene or the snapshot
+    std::optional<std::uint64_t> spawned = {};  ///< count of the scene's first spawn group
 };
 
 /// Says on stderr that a device failed and what runs instead.

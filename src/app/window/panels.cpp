@@ -46,8 +46,10 @@ void showPanels(const PanelContext& context) {
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
         ImGui::PushItemWidth(float(-104 * context.scale));
         showRunPanel(context);
+        showScenePanel(context);
         showCollisionsPanel(context);
         showDisplayPanel(context);
+        showErrorPanel(context);
         showCountersPanel(context);
         showFrameTimePanel(context);
         showLoadPanel(context);

@@ -10,6 +10,7 @@
 
 #include <quadrille/names.hpp>
 
+#include "app/scene_catalog.hpp"
 #include "app/window/body_colors.hpp"
 
 namespace quadrille::app {
@@ -33,6 +34,9 @@ Workbench::Workbench(const Options& options)
     : filmed_(!options.window.video.empty()),
       pacer_(1, options.window.speed.value_or(options.window.offscreen && !filmed_ ? 0 : 1)),
       paused_(options.window.paused) {
+    for (const std::string& name : sceneNames()) {
+        scenes_.push_back({name, quadrille::app::aboutScene(findScene(name))});
+    }
     start(setUp(options), options);
 }
 
@@ -48,6 +52,7 @@ void Workbench::start(Run run, Options options) {
     session_.reset();
     options_ = std::make_unique<Options>(std::move(options));
     session_ = std::make_unique<RunSession>(std::move(run), *options_);
+    about_ = startsFromScene() ? quadrille::app::aboutScene(findScene(options_->scene)) : "";
     session_->statistics().shown = std::move(shown);
     pacer_ = Pacer(config.step.dt, pacer_.speed());
     listening_ = false;
@@ -126,11 +131,18 @@ double Workbench::takeErrorSeconds() { return std::exchange(errorSeconds_, 0); }
 
 // ---- the run
 
-void Workbench::reset() { restart(*options_, "started anew"); }
+void Workbench::reset() { restart(*options_, "started anew", false); }
 
-void Workbench::open(const std::string& sceneFile) {
+void Workbench::restartWith(std::optional<std::uint64_t> seed, std::optional<std::uint64_t> count) {
     Options options = *options_;
-    options.scene = sceneFile;
+    if (seed) options.seed = seed;
+    if (count) options.entities = count;
+    restart(std::move(options), "started anew", false);
+}
+
+void Workbench::open(const std::string& scene) {
+    Options options = *options_;
+    options.scene = scene;
     options.load.clear();
     // What the command line says of the first scene does not hold for this one.
     options.set.clear();
@@ -138,16 +150,36 @@ void Workbench::open(const std::string& sceneFile) {
     options.seed.reset();
     options.dt.reset();
     options.restitution.reset();
-    restart(std::move(options), "opened " + sceneFile);
+    restart(std::move(options), "opened " + scene, true);
 }
 
-void Workbench::restart(Options options, const std::string& success) {
-    options.partitioner = config().partitioner;
-    options.law = config().law;
+void Workbench::openNext(int further) {
+    const auto count = static_cast<int>(scenes_.size());
+    if (count == 0) return;
+    int now = further > 0 ? -1 : count;  // of a scene that is not in the list
+    for (int i = 0; i < count; ++i) {
+        if (scenes_[std::size_t(i)].name == options_->scene) now = i;
+    }
+    open(scenes_[std::size_t((now + further + count) % count)].name);
+}
+
+void Workbench::restart(Options options, const std::string& success, bool otherScene) {
+    const SimulationConfig before = config();
+    options.partitioner = before.partitioner;
+    options.law = before.law;
+    if (otherScene) options.law.reset();
     options.resolver = session_->run().requestedResolver;
     std::optional<Run> run;
     try {
         run = setUp(options);
+        SimulationConfig next = run->simulation.config();
+        if (otherScene) {
+            if (!run->lawNamed) next.law = before.law;
+        } else {
+            next.step.gravity = before.step.gravity;
+            next.step.restitution = before.step.restitution;
+        }
+        run->simulation.reconfigure(next);
     } catch (const std::exception& error) {
         say(error.what(), true);
         return;
