@@ -37,6 +37,7 @@ struct RawOptions {
     std::string resolver{name(ResolverKind::Auto)};
     std::string cudaThread = "body";
     std::vector<std::string> compare;
+    bool sceneGiven = false;
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -177,11 +178,11 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
                          std::string("collisionStress ") + version + " (" + commit() + ")");
     app.get_formatter()->column_width(38);
 
-    auto* scene =
-        app.add_option("scene,--scene", options.scene, "A name in scenes/ or a scene file")
-            ->type_name("NAME|FILE")
-            ->capture_default_str()
-            ->group("Scene");
+    auto* scene = app.add_option("scene,--scene", options.scene,
+                                 "A name in scenes/ or a scene file (" + options.scene + "; " +
+                                     openingScene + " in a window)")
+                      ->type_name("NAME|FILE")
+                      ->group("Scene");
     auto* set = app.add_option("--set", options.set,
                                "Put a value in place of the scene's: step.restitution=0.5, "
                                "spawn.0.count=1000; may be given often")
@@ -386,6 +387,8 @@ void refuseSharedFiles(const Options& options) {
 void interpret(Options& options, const RawOptions& raw) {
     options.partitioner = makePartitionerConfig(raw);
     options.resolver = find(resolvers(), raw.resolver).value();
+    const bool inWindow = !options.headless && !options.explain;
+    if (inWindow && !raw.sceneGiven) options.scene = openingScene;
     options.law = find(laws(), raw.law);
     options.precision = find(precisions(), raw.precision);
     options.cuda.threadPer = raw.cudaThread == "cell" ? CudaThread::Cell : CudaThread::Body;
@@ -521,6 +524,7 @@ ParsedOptions parseOnce(const std::vector<const char*>& arguments,
         return {.options = std::nullopt, .exitCode = asked ? done : usageError};
     }
     if (differences != nullptr) *differences = parseDifferences(app, raw);
+    raw.sceneGiven = app.get_option("--scene")->count() > 0;
     interpret(options, raw);
     return {.options = std::move(options), .exitCode = done};
 }

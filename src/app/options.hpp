@@ -21,8 +21,8 @@ class UsageError : public std::runtime_error {
 
 /// The command line, checked.
 struct Options {
-    std::string scene = "balanced";
-    std::vector<std::string> set;  ///< what SceneOptions::set takes
+    std::string scene = "balanced";  ///< openingScene in a window
+    std::vector<std::string> set;    ///< what SceneOptions::set takes
     std::optional<std::uint64_t> entities;
     std::optional<std::uint64_t> seed;
 

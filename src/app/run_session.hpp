@@ -51,6 +51,8 @@ class RunSession {
     bool measuresError() const { return meter_.has_value(); }
     /// What that took of the last frame, s.
     double errorSeconds() const { return errorSeconds_; }
+    /// How large the error is so far. Throws Error if it cannot be said any more.
+    accuracy::ErrorMetrics errorSoFar() const { return meter_.value().metrics(); }
 
     /// Changes what a step is made with, as Simulation::reconfigure does.
     void reconfigure(const SimulationConfig& config);

@@ -25,6 +25,7 @@ struct Start {
     World world;
     StepSettings step;
     std::optional<Law> law;
+    std::optional<std::uint64_t> spawned = {};
     std::uint64_t stepsDone = 0;
 };
 
@@ -69,7 +70,8 @@ Start loadStart(const Options& options, const Common& common) {
             .seed = scene.seed,
             .world = std::move(scene.world),
             .step = scene.step,
-            .law = scene.law};
+            .law = scene.law,
+            .spawned = scene.spawned};
 }
 
 /// The law to run, with a warning if it is not the default only because that cannot be run.
@@ -161,6 +163,8 @@ Run setUpOne(const Options& options, const Common& common) {
             .seed = start.seed,
             .requestedResolver = options.resolver,
             .simulation = Simulation(std::move(start.world), config),
+            .lawNamed = start.law.has_value(),
+            .spawned = start.spawned,
             .beside = nullptr};
     run.simulation.resumeAt(start.stepsDone);
     if (!run.simulation.resolverFailure().empty()) warnOfFallback(run);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <quadrille/quadrille.hpp>
@@ -16,7 +17,9 @@ struct Run {
     std::uint64_t seed;
     ResolverKind requestedResolver;
     Simulation simulation;
-    std::unique_ptr<Run> beside;  ///< what it is compared with
+    bool lawNamed = false;                      ///< by the scene or the snapshot
+    std::optional<std::uint64_t> spawned = {};  ///< count of the scene's first spawn group
+    std::unique_ptr<Run> beside = nullptr;      ///< what it is compared with
 };
 
 /// Says on stderr that a device failed and what runs instead.

@@ -48,9 +48,9 @@ TEST(Usage, UnknownRebuildListsTheValidOnes) {
 }
 
 TEST(Usage, UnknownSceneListsTheValidOnes) {
-    expectUsageError({"--scene", "balancd"},
-                     {"--scene", "balancd", "balanced", "balanced-scaled", "bullet", "cradle",
-                      "demo13k", "imbalanced", "imbalanced-clear", "mixed-sizes", "pi", "pile"});
+    expectUsageError({"--scene", "balancd"}, {"--scene", "balancd", "balanced", "balanced-scaled",
+                                              "bullet", "cradle", "demo13k", "gap", "imbalanced",
+                                              "imbalanced-clear", "mixed-sizes", "pi", "pile"});
 }
 
 struct Mistyped {

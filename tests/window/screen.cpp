@@ -152,11 +152,16 @@ void Screen::click(int x, int y) {
     XSync(display_, False);
 }
 
-void Screen::drag(int fromX, int fromY, int toX, int toY) {
+void Screen::drag(int fromX, int fromY, int toX, int toY, Process::Seconds pause) {
     moveMouse(fromX, fromY);
+    std::this_thread::sleep_for(pause);
     XTestFakeButtonEvent(display_, leftButton, True, CurrentTime);
+    XSync(display_, False);
+    std::this_thread::sleep_for(pause);
     moveMouse((fromX + toX) / 2, (fromY + toY) / 2);
+    std::this_thread::sleep_for(pause);
     moveMouse(toX, toY);
+    std::this_thread::sleep_for(pause);
     XTestFakeButtonEvent(display_, leftButton, False, CurrentTime);
     XSync(display_, False);
 }

@@ -61,7 +61,8 @@ class Screen {
 
     void moveMouse(int x, int y);
     void click(int x, int y);
-    void drag(int fromX, int fromY, int toX, int toY);
+    /// A hand takes some time from event to event; panels look at the mouse once a picture.
+    void drag(int fromX, int fromY, int toX, int toY, Process::Seconds pause = Process::Seconds(0));
     /// Notches of the wheel, positive for forwards.
     void wheel(int x, int y, int notches);
     /// By the names of X: "space", "period", "1", "Escape".

@@ -70,12 +70,19 @@ TEST_F(WindowType, ControlsAndPlotsExplainThemselves) {
 
 TEST_F(WindowType, TheFrameTimePlotTellsWhatIsUnderTheMouse) {
     // Low enough for all of the column.
-    startPaused(write("still.toml", stillScene));
+    // So high that the column needs no scrolling.
+    screen_ = Screen::start(width, 1200);
+    ASSERT_TRUE(screen_);
+    startPaused(write("still.toml", stillScene), {"--size", "1280,1200"});
     for (int i = 0; i < 5; ++i) screen_->press("period");
+    screen_->moveMouse(700, 1000);
     ASSERT_TRUE(titleHas("step 5,"));
-    screen_->moveMouse(700, 600);
+    screen_->press("Tab");  // what is shown after it is of step 5
+    ASSERT_TRUE(shows(20, 14, background));
+    screen_->press("Tab");
+    ASSERT_TRUE(eventually([&] { return !near(screen_->pixel(20, 14), background); }));
     const Image before = screen_->image();
-    screen_->moveMouse(290, 690);
+    screen_->moveMouse(295, 760);
     EXPECT_TRUE(eventually([&] { return changed(before, panelWidth) > 5000; }));
     close();
 }

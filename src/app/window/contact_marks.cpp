@@ -11,9 +11,9 @@ namespace quadrille::app {
 
 namespace {
 
-/// Half of the line of an impulse at the end of the scale: as long as the boxes leave room for, in
-/// these bounds, points.
-constexpr double shortestLine = 7, longestLine = 30;
+/// Half of the line of an impulse at the end of the scale: half of the boxes' shorter sides, in
+/// these bounds, points. Small boxes have small marks, or these would hide them.
+constexpr double shortestLine = 4, longestLine = 30;
 
 struct Mark {
     Vec2 low, high;  // what the sides share, on the screen
@@ -56,15 +56,17 @@ std::optional<LengthKey> drawContactMarks(ImDrawList& list, const World& world,
         marks.push_back(
             {p.cwiseMin(q), p.cwiseMax(q), contact.impulse, contact.axis, contact.collided});
         if (contact.collided) impulses.push_back(float(contact.impulse.norm()));
-        const double side = std::min((a->high - a->low).minCoeff(), (b->high - b->low).minCoeff());
-        sides += side * camera.zoom();
+        sides +=
+            camera.zoom() * std::min((a->high - a->low).minCoeff(), (b->high - b->low).minCoeff());
     }
     if (marks.empty()) return std::nullopt;
     const double top = niceCeiling(percentile(impulses, 0.95));
-    const double half =
-        std::clamp(0.5 * sides / double(marks.size()), shortestLine * scale, longestLine * scale);
+    const double side = sides / double(marks.size());
+    const double half = std::clamp(side / 2, shortestLine * scale, longestLine * scale);
     const ImU32 collided = packed(theme.collided), touching = packed(theme.touching);
-    const auto thickness = float(2 * scale);
+    const double line = std::clamp(side / 8, scale, 2 * scale);
+    const auto thickness = static_cast<float>(line);
+    const Vec2 dot = Vec2(1.25, 1.25) * line;
     for (const Mark& mark : marks) {
         const ImU32 color = mark.collided ? collided : touching;
         const Vec2 middle = (mark.low + mark.high) / 2;
@@ -82,7 +84,6 @@ std::optional<LengthKey> drawContactMarks(ImDrawList& list, const World& world,
             along[axis] = half * std::min(mark.impulse[axis] / top, 1.0);
             list.AddLine(point(middle - along), point(middle + along), color, thickness);
         }
-        const Vec2 dot = Vec2(2.5, 2.5) * scale;
         list.AddRectFilled(point(middle - dot), point(middle + dot), color);
     }
     if (top == 0) return std::nullopt;

@@ -163,8 +163,7 @@ bool editParameters(PartitionerConfig& config) {
 
 void showRunPanel(const PanelContext& context) {
     Workbench& bench = context.bench;
-    const std::string title = "Run: " + bench.session().run().scene + "###run";
-    if (!sectionHeader(title.c_str(),
+    if (!sectionHeader("Run",
                        "Time goes on in steps of equal length, however fast it is "
                        "shown.")) {
         return;
@@ -208,7 +207,6 @@ void showCollisionsPanel(const PanelContext& context) {
     changed = chooseKind("resolver", next.resolver, resolvers(),
                          "Who does it: the result is the same. T") ||
               changed;
-    showAbout(next.resolver, resolvers());
     if (changed) context.bench.reconfigure(std::move(next));
 }
 

@@ -65,7 +65,7 @@ void showCountersPanel(const PanelContext& context) {
     row("escaped", grouped(m.escaped), "Moving bodies whose centre is outside of the world.");
     row("deepest overlap", m.overlapKnown ? compact(m.deepestOverlap) + " px" : "not measured",
         "Of any two boxes now, along the axis along which it is least. Looked for as often as it "
-        "takes a twentieth of the time.");
+        "takes a fiftieth of the time.");
     row("energy drift", formatted("%.2g", m.energyDrift),
         "Kinetic and potential energy over that of the start, minus 1.");
     row("missed pairs",

@@ -29,6 +29,11 @@ constexpr KeyCommand commands[] = {
     {SDLK_MINUS, false, nullptr, "", [](B b, V) { b.changeSpeed(false); }},
     {SDLK_KP_MINUS, false, nullptr, "", [](B b, V) { b.changeSpeed(false); }},
     {SDLK_r, false, "R", "reset: start anew", [](B b, V) { b.reset(); }},
+    {SDLK_RIGHTBRACKET, false, "[  ]", "last, next scene", [](B b, V) { b.openNext(1); }},
+    {SDLK_LEFTBRACKET, false, nullptr, "", [](B b, V) { b.openNext(-1); }},
+    // Where a keyboard has no brackets.
+    {SDLK_PAGEDOWN, true, "Ctrl PgUp PgDn", "the same", [](B b, V) { b.openNext(1); }},
+    {SDLK_PAGEUP, true, nullptr, "", [](B b, V) { b.openNext(-1); }},
     {SDLK_1, false, "1 2 3 4", "brute force, static grid, quadtree,\nsemi-static quadtree",
      choose<BruteForce>},
     {SDLK_2, false, nullptr, "", choose<StaticGrid>},

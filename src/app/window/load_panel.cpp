@@ -25,10 +25,12 @@ void showLoadPanel(const PanelContext& context) {
     // Room for one cell, too: log(1 + n).
     const float top = std::log1p(float(histogram.most));
     canvas.addLine(0, "0");
-    canvas.addLine(1, most);
+    const float ceiling = 1 - (ImGui::GetFontSize() + 6) / canvas.height();  // below the caption
+    canvas.addLine(ceiling, most);
     const float width = canvas.width() / float(bins);
     for (std::size_t k = 0; k < bins; ++k) {
-        const float height = std::log1p(float(histogram.cells[k])) / top * canvas.height();
+        const float height =
+            std::log1p(float(histogram.cells[k])) / top * ceiling * canvas.height();
         const float x = canvas.left() + float(k) * width;
         canvas.list().AddRectFilled({x + 0.5f, canvas.bottom() - height},
                                     {x + width - 0.5f, canvas.bottom()}, packed(theme.accent));

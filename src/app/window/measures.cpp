@@ -7,7 +7,7 @@ namespace {
 constexpr double interval = 0.25;  // s
 
 /// Looking for the deepest overlap may take this share of the time.
-constexpr int overlapShare = 20;
+constexpr int overlapShare = 50;
 
 }  // namespace
 

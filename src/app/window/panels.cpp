@@ -64,12 +64,14 @@ void showPanels(const PanelContext& context) {
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
         ImGui::PushItemWidth(float(-104 * context.scale));
         showRunPanel(context);
+        showScenePanel(context);
         if (context.view.compared) {
             showComparisonPanel(context);
         } else {
             showCollisionsPanel(context);
         }
         showDisplayPanel(context);
+        showErrorPanel(context);
         showCountersPanel(context);
         showFrameTimePanel(context);
         showLoadPanel(context);

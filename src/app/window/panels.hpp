@@ -2,6 +2,7 @@
 
 #include "app/window/camera.hpp"
 #include "app/window/comparison_layout.hpp"
+#include "app/window/error_history.hpp"
 #include "app/window/measures.hpp"
 #include "app/window/phase_history.hpp"
 #include "app/window/view_state.hpp"
@@ -16,6 +17,7 @@ struct PanelContext {
     ViewState& view;
     const Measures& measures;
     const PhaseHistory& history;
+    const ErrorHistory& errors;
     double scale;       ///< of text and panels
     int width, height;  ///< of the window, points
 };
@@ -41,12 +43,14 @@ bool sectionHeader(const char* label, const char* meaning);
 /// Says what the item before is for, once the mouse rests on it.
 void tooltip(const char* text);
 
+void showScenePanel(const PanelContext& context);
 void showRunPanel(const PanelContext& context);
 void showCollisionsPanel(const PanelContext& context);
 void showDisplayPanel(const PanelContext& context);
 void showCountersPanel(const PanelContext& context);
 void showFrameTimePanel(const PanelContext& context);
 void showLoadPanel(const PanelContext& context);
+void showErrorPanel(const PanelContext& context);
 void showEntityWindow(const PanelContext& context);
 void showHelpWindow(const PanelContext& context);
 void showMessage(const PanelContext& context);

@@ -88,6 +88,7 @@ class WindowRun {
     std::vector<SDL_Event> events_;  // of this picture
     Measures measures_;
     PhaseHistory history_;
+    ErrorHistory errors_;
 
     SdlWindow::Size size_;
     bool fullScreen_ = false;
@@ -166,17 +167,20 @@ void WindowRun::wait() {
 }
 
 /// The panels say whose the mouse is, for one place of it in a picture: what happens after it has
-/// moved from the place of a click waits for the next.
+/// moved from the place of a click waits for the next. So does the end of a key while they edit a
+/// text, since they look at which keys are down.
 void WindowRun::takeEvents() {
     events_.clear();
     SDL_PumpEvents();
-    bool used = false;
+    bool used = false, typed = false;
     SDL_Event event;
     while (SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
         if (used && event.type == SDL_MOUSEMOTION) break;
+        if (typed && event.type == SDL_KEYUP) break;
         if (SDL_PollEvent(&event) == 0) break;
         used |= event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP ||
                 event.type == SDL_MOUSEWHEEL;
+        typed |= event.type == SDL_KEYDOWN && gui_.wantsKeyboard();
         events_.push_back(event);
         gui_.processEvent(event);
     }
@@ -234,11 +238,12 @@ std::vector<ScreenRect> WindowRun::views() const {
 }
 
 void WindowRun::showPicture(bool last) {
+    errors_.update(bench_);
     phaseStart_ = Clock::now();
     moveCamera();
     measures_.update(bench_);
-    const PanelContext context{bench_,       view_,       measures_,   history_,
-                               gui_.scale(), size_.width, size_.height};
+    const PanelContext context{bench_,  view_,        measures_,   history_,
+                               errors_, gui_.scale(), size_.width, size_.height};
     showPanels(context);
     finishPhase(ShowPhase::Gui);
 
@@ -347,7 +352,8 @@ void WindowRun::recordPhases(double pictureSeconds) {
     for (std::size_t i = 0; i < showPhaseCount; ++i) {
         row[phaseCount + i] = static_cast<float>(1e3 * phases_[i]);
     }
-    row[PhaseHistory::Error] = static_cast<float>(1e3 * bench_.takeErrorSeconds());
+    row[PhaseHistory::Error] =
+        static_cast<float>(1e3 * (bench_.takeErrorSeconds() + errors_.takeSeconds()));
     row[PhaseHistory::Wait] = static_cast<float>(1e3 * waited_);
     const float known = std::accumulate(row.begin(), row.end(), 0.0f);
     row[PhaseHistory::Unaccounted] =

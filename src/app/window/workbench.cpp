@@ -12,6 +12,7 @@
 
 #include <quadrille/names.hpp>
 
+#include "app/scene_catalog.hpp"
 #include "app/window/body_colors.hpp"
 
 namespace quadrille::app {
@@ -37,6 +38,9 @@ Workbench::Workbench(const Options& options)
     : filmed_(!options.window.video.empty()),
       pacer_(1, options.window.speed.value_or(options.window.offscreen && !filmed_ ? 0 : 1)),
       paused_(options.window.paused) {
+    for (const std::string& name : sceneNames()) {
+        scenes_.push_back({name, quadrille::app::aboutScene(findScene(name))});
+    }
     start(setUp(options), options);
 }
 
@@ -55,6 +59,7 @@ void Workbench::start(Run run, Options options) {
     session_.reset();
     options_ = std::make_unique<Options>(std::move(options));
     session_ = std::make_unique<RunSession>(std::move(run), *options_);
+    about_ = startsFromScene() ? quadrille::app::aboutScene(findScene(options_->scene)) : "";
     session_->statistics().shown = std::move(shown);
     const RunBeside* beside = session_->beside();
     const double steps = beside != nullptr ? double(beside->stepsPerMeeting()) : 1;
@@ -232,36 +237,75 @@ double Workbench::takeErrorSeconds() { return std::exchange(errorSeconds_, 0); }
 
 // ---- the run
 
-void Workbench::reset() { restart(*options_, "started anew"); }
+void Workbench::reset() { restart(*options_, "started anew", false); }
 
-void Workbench::open(const std::string& sceneFile) {
-    const auto toOpen = [&](Options options) {
-        options.scene = sceneFile;
-        options.load.clear();
-        // What the command line says of the first scene does not hold for this one.
-        options.set.clear();
-        options.entities.reset();
-        options.seed.reset();
-        if (options.label.empty()) {  // of runs that are compared it says in what they differ
-            options.dt.reset();
-            options.restitution.reset();
-        }
-        return options;
-    };
-    Options options = toOpen(*options_);
-    if (options.beside) options.beside = std::make_shared<const Options>(toOpen(*options.beside));
-    restart(std::move(options), "opened " + sceneFile);
+/// What is changed for the run is changed for the one beside it.
+template <class Change>
+Options Workbench::forBoth(Change&& change) const {
+    Options options = *options_;
+    change(options);
+    if (options.beside) {
+        Options other = *options.beside;
+        change(other);
+        options.beside = std::make_shared<const Options>(std::move(other));
+    }
+    return options;
 }
 
-void Workbench::restart(Options options, const std::string& success) {
+void Workbench::restartWith(std::optional<std::uint64_t> seed, std::optional<std::uint64_t> count) {
+    restart(forBoth([&](Options& options) {
+                if (seed) options.seed = seed;
+                if (count) options.entities = count;
+            }),
+            "started anew", false);
+}
+
+void Workbench::open(const std::string& scene) {
+    restart(forBoth([&](Options& options) {
+                options.scene = scene;
+                options.load.clear();
+                // What the command line says of the first scene does not hold for this one.
+                options.set.clear();
+                options.entities.reset();
+                options.seed.reset();
+                if (!options.label.empty()) return;  // says in what compared runs differ
+                options.dt.reset();
+                options.restitution.reset();
+            }),
+            "opened " + scene, true);
+}
+
+void Workbench::openNext(int further) {
+    const auto count = static_cast<int>(scenes_.size());
+    if (count == 0) return;
+    int now = further > 0 ? -1 : count;  // of a scene that is not in the list
+    for (int i = 0; i < count; ++i) {
+        if (scenes_[std::size_t(i)].name == options_->scene) now = i;
+    }
+    open(scenes_[std::size_t((now + further + count) % count)].name);
+}
+
+void Workbench::restart(Options options, const std::string& success, bool otherScene) {
+    const SimulationConfig before = config();
     if (!options.beside) {
-        options.partitioner = config().partitioner;
-        options.law = config().law;
+        options.partitioner = before.partitioner;
+        options.law = before.law;
+        if (otherScene) options.law.reset();
         options.resolver = session_->run().requestedResolver;
     }
     std::optional<Run> run;
     try {
         run = setUp(options);
+        if (!options.beside) {
+            SimulationConfig next = run->simulation.config();
+            if (otherScene) {
+                if (!run->lawNamed) next.law = before.law;
+            } else {
+                next.step.gravity = before.step.gravity;
+                next.step.restitution = before.step.restitution;
+            }
+            run->simulation.reconfigure(next);
+        }
     } catch (const std::exception& error) {
         say(error.what(), true);
         return;

@@ -19,6 +19,11 @@
 
 namespace quadrille::app {
 
+/// A scene that comes with the program, and a line about it.
+struct ShippedScene {
+    std::string name, about;
+};
+
 /// The run that a window shows, and all that its user can do to it; knows nothing of the screen.
 class Workbench {
   public:
@@ -88,10 +93,21 @@ class Workbench {
 
     // ---- the run
 
-    /// From the start of the scene or snapshot, with the partitioner, law and resolver of now.
+    /// From the start of the scene or snapshot, with the partitioner, law, resolver, gravity and
+    /// restitution of now.
     void reset();
-    /// Goes on with another scene file; says so if it cannot, and keeps the old one.
-    void open(const std::string& sceneFile);
+    /// The same with another seed, or another count of the first spawn group.
+    void restartWith(std::optional<std::uint64_t> seed, std::optional<std::uint64_t> count);
+    /// Goes on with another scene, a name or a file, and with the law that it names, if it names
+    /// one; says so if it cannot, and keeps the old one.
+    void open(const std::string& scene);
+    /// So many further on in the list of shipped scenes, the first after the last.
+    void openNext(int further);
+    const std::vector<ShippedScene>& scenes() const { return scenes_; }
+    /// What the scene says of itself; empty if it says nothing.
+    const std::string& aboutScene() const { return about_; }
+    /// Or else from a snapshot.
+    bool startsFromScene() const { return options_->load.empty(); }
     /// Changes what a step is made with; says so if it cannot be run, and keeps the old. Where only
     /// the resolver is in the way, and was not chosen now, the sequential one takes its place.
     void reconfigure(SimulationConfig config);
@@ -137,7 +153,10 @@ class Workbench {
   private:
     void start(Run run, Options options);
     /// The same, unless the options cannot be run; then says so, and the old run goes on.
-    void restart(Options options, const std::string& success);
+    /// Another scene has its own law, gravity and restitution.
+    void restart(Options options, const std::string& success, bool otherScene);
+    template <class Change>
+    Options forBoth(Change&& change) const;
     /// Throws what Simulation::reconfigure throws.
     void apply(SimulationConfig config);
     void sayFallback();
@@ -150,6 +169,8 @@ class Workbench {
     bool refuseChange();
     bool done() const { return session_->allFramesDone(); }
 
+    std::vector<ShippedScene> scenes_;
+    std::string about_;
     std::unique_ptr<Options> options_;  // the session refers to them
     std::unique_ptr<RunSession> session_;
     bool filmed_;
