@@ -86,8 +86,11 @@ void BodyColors::colorByScale(const BodyView<Real>& bodies, Color (*ramp)(double
     for (std::size_t i = 0; i < count; i += stride) {
         if (std::isfinite(values_[i])) sample_.push_back(values_[i]);
     }
-    const double most = percentile(sample_, share);
-    scale_.top = share < 1 ? niceCeiling(most) : most;
+    if (share < 1) {
+        scale_.top = niceCeiling(percentile(sample_, share));
+    } else if (!sample_.empty()) {
+        scale_.top = double(*std::max_element(sample_.begin(), sample_.end()));
+    }
     if (!(scale_.top > 0) && scale_.by != ColorBy::SinceHit) return;
     // A table, since the ramp is dearer than the look-up.
     std::array<Color, 256> table;

@@ -64,7 +64,7 @@ std::optional<LengthKey> drawContactMarks(ImDrawList& list, const World& world,
     const double side = sides / double(marks.size());
     const double half = std::clamp(side / 2, shortestLine * scale, longestLine * scale);
     const ImU32 collided = packed(theme.collided), touching = packed(theme.touching);
-    const double line = std::clamp(side / 8, scale, 2 * scale);
+    const double line = std::round(std::clamp(side / 8, scale, 2 * scale));
     const auto thickness = static_cast<float>(line);
     const Vec2 dot = Vec2(1.25, 1.25) * line;
     for (const Mark& mark : marks) {
