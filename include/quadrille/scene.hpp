@@ -33,7 +33,8 @@ struct Scene {
     std::uint64_t seed = 1;
     World world;
     StepSettings step;
-    std::optional<Law> law = {};  ///< that the scene names
+    std::optional<Law> law = {};                ///< that the scene names
+    std::optional<std::uint64_t> spawned = {};  ///< count of the first spawn group
 };
 
 /// Reads a scene file (TOML; docs/scenes.md describes the format) and makes its bodies: walls,

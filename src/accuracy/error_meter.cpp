@@ -1,9 +1,7 @@
 #include "accuracy/error_meter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
-#include <limits>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +12,7 @@
 #include <quadrille/error.hpp>
 #include <quadrille/measure.hpp>
 
+#include "accuracy/body_states.hpp"
 #include "accuracy/virial.hpp"
 #include "reference/oracle.hpp"
 
@@ -69,32 +68,6 @@ auto inReference(Action&& action) {
     }
 }
 
-std::vector<BodyState> statesOf(const World& world) {
-    std::vector<BodyState> states;
-    world.visitBodies([&](const auto& bodies) {
-        const auto& m = bodies.moving;
-        states.reserve(m.size());
-        const CreationRanks ranks(m.created, m.size());
-        for (std::size_t place = 0; place < m.size(); ++place) {
-            const std::size_t i = ranks.rowAt(place);
-            states.push_back({Vec2(m.x[i], m.y[i]), Vec2(m.vx[i], m.vy[i])});
-        }
-    });
-    return states;
-}
-
-/// The mean side of the moving bodies, px; 1 if there are none.
-double meanSide(const std::vector<Box>& boxes) {
-    double sum = 0;
-    double count = 0;
-    for (const Box& box : boxes) {
-        if (box.isStatic) continue;
-        sum += (box.size.x() + box.size.y()) / 2;
-        ++count;
-    }
-    return count == 0 ? 1 : sum / count;
-}
-
 /// Overlaps of several states.
 struct OverlapSum {
     double max = 0, sum = 0;  // px
@@ -126,17 +99,16 @@ struct ErrorMeter::Impl {
           })),
           begin(s.time()),
           start(statesOf(s.world())),
-          length(meanSide(boxes)) {
+          length(meanSide(s.world())),
+          exchanged(onlyExchanges(s)) {
         const bool elastic =
             s.config().step.restitution == 1 && s.config().step.gravity == Vec2(0, 0);
-        exchanged = elastic && !s.features().massesDiffer;
         if (elastic) balance.emplace(s.world());
     }
 
     void observe(const StepReport& report);
     Energy energyOf(const std::vector<BodyState>& states) const;
     std::vector<BodyState> exactStates() const;
-    double velocityTolerance(const std::vector<BodyState>& exact) const;
 
     Simulation& simulation;
     std::vector<Box> boxes;  // at the start, static ones first
@@ -144,7 +116,7 @@ struct ErrorMeter::Impl {
     double begin;  // s, when the meter was made; time 0 of the reference
     std::vector<BodyState> start;
     double length;                         // px
-    bool exchanged = false;                // collisions exchange velocities and change nothing else
+    bool exchanged;                        // collisions exchange velocities and change nothing else
     std::optional<VirialBalance> balance;  // where the identity holds
     std::vector<Event> measured;           // times from `begin`
     std::uint64_t auditedSteps = 0, overlappingPairs = 0, missedPairs = 0;
@@ -200,22 +172,6 @@ Energy ErrorMeter::Impl::energyOf(const std::vector<BodyState>& states) const {
     return energy;
 }
 
-/// None where velocities are only exchanged. Elsewhere every collision rounds, and half of the
-/// digits are left for that to add up: sqrt(epsilon) of the fastest component.
-double ErrorMeter::Impl::velocityTolerance(const std::vector<BodyState>& exact) const {
-    if (exchanged) return 0;
-    const double epsilon = simulation.config().precision == Precision::Double
-                               ? std::numeric_limits<double>::epsilon()
-                               : double(std::numeric_limits<float>::epsilon());
-    double fastest = 0;
-    for (const auto* states : {&start, &exact}) {
-        for (const BodyState& body : *states) {
-            fastest = std::max(fastest, body.velocity.cwiseAbs().maxCoeff());
-        }
-    }
-    return std::sqrt(epsilon) * fastest;
-}
-
 ErrorMetrics ErrorMeter::metrics() const {
     const Impl& m = *impl_;
     const std::vector<BodyState> measured = statesOf(m.simulation.world());
@@ -223,7 +179,9 @@ ErrorMetrics ErrorMeter::metrics() const {
         throw Error("error meter: bodies were added or removed");
     }
     const std::vector<BodyState> exact = m.exactStates();
-    const double tolerance = m.velocityTolerance(exact);
+    const double tolerance =
+        velocityTolerance(m.exchanged, m.simulation.config().precision,
+                          std::max(fastestComponent(m.start), fastestComponent(exact)));
     OverlapSum overlaps = m.overlaps;
     if (!m.overlapsKnown) overlaps.add(m.simulation.world());
     ErrorMetrics result{

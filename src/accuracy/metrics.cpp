@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <tuple>
+#include <utility>
 
 namespace quadrille::accuracy {
 
@@ -14,12 +15,10 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
 }
 
 /// Events of one kind together, each kind in order of time.
-std::vector<Event> grouped(std::span<const Event> events) {
-    std::vector<Event> sorted(events.begin(), events.end());
-    std::sort(sorted.begin(), sorted.end(), [](const Event& a, const Event& b) {
+void group(std::vector<Event>& events) {
+    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
         return std::tie(a.i, a.j, a.axis, a.time) < std::tie(b.i, b.j, b.axis, b.time);
     });
-    return sorted;
 }
 
 auto kind(const Event& event) { return std::tie(event.i, event.j, event.axis); }
@@ -37,26 +36,49 @@ std::optional<double> EventMatch::rateBias() const {
 
 EventMatch matchEvents(std::span<const Event> exact, std::span<const Event> measured,
                        double tolerance) {
-    EventMatch match{.exact = exact.size(), .measured = measured.size()};
-    const std::vector<Event> left = grouped(exact);
-    const std::vector<Event> right = grouped(measured);
-    // The earliest events that can be matched, are: so none takes the partner of a later one.
-    auto a = left.begin();
-    auto b = right.begin();
-    while (a != left.end() && b != right.end()) {
-        if (kind(*a) < kind(*b)) {
-            ++a;
-        } else if (kind(*b) < kind(*a)) {
-            ++b;
-        } else if (std::abs(a->time - b->time) <= tolerance) {
-            ++match.matched;
-            ++a;
-            ++b;
+    EventMatcher matcher(tolerance);
+    for (const Event& event : exact) matcher.addExact(event);
+    for (const Event& event : measured) matcher.addMeasured(event);
+    matcher.advance(std::numeric_limits<double>::infinity());
+    return matcher.match();
+}
+
+void EventMatcher::advance(double time) {
+    group(exact_);
+    group(measured_);
+    std::vector<Event> exactLeft, measuredLeft;
+    // Without a partner among the present ones; one that is still to come is not before `time`.
+    const auto alone = [&](const Event& event, std::uint64_t& count, std::vector<Event>& left) {
+        if (time - event.time > tolerance_) {
+            ++count;
         } else {
-            a->time < b->time ? ++a : ++b;
+            left.push_back(event);
+        }
+    };
+    // The earliest events that can be matched, are: so none takes the partner of a later one.
+    auto a = exact_.begin();
+    auto b = measured_.begin();
+    while (a != exact_.end() || b != measured_.end()) {
+        if (b == measured_.end() || (a != exact_.end() && kind(*a) < kind(*b))) {
+            alone(*a++, match_.exact, exactLeft);
+        } else if (a == exact_.end() || kind(*b) < kind(*a)) {
+            alone(*b++, match_.measured, measuredLeft);
+        } else if (std::abs(a->time - b->time) <= tolerance_) {
+            ++match_.matched;
+            ++match_.exact;
+            ++match_.measured;
+            ++a;
+            ++b;
+        } else if (a->time < b->time) {
+            ++match_.exact;
+            ++a;
+        } else {
+            ++match_.measured;
+            ++b;
         }
     }
-    return match;
+    exact_ = std::move(exactLeft);
+    measured_ = std::move(measuredLeft);
 }
 
 Quantiles quantiles(std::vector<double> values) {
@@ -69,13 +91,17 @@ Quantiles quantiles(std::vector<double> values) {
     return {.median = at(0.5), .p99 = at(0.99), .max = values.back()};
 }
 
+bool velocityDiffers(const Vec2& exact, const Vec2& measured, double tolerance) {
+    const Vec2 difference = measured - exact;
+    // Written so that NaN counts as different.
+    return !(std::abs(difference.x()) <= tolerance && std::abs(difference.y()) <= tolerance);
+}
+
 std::size_t wrongBodies(std::span<const BodyState> exact, std::span<const BodyState> measured,
                         double tolerance) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        const Vec2 difference = measured[i].velocity - exact[i].velocity;
-        // Written so that NaN counts as wrong.
-        count += !(std::abs(difference.x()) <= tolerance && std::abs(difference.y()) <= tolerance);
+        count += velocityDiffers(exact[i].velocity, measured[i].velocity, tolerance);
     }
     return count;
 }

@@ -27,6 +27,9 @@ struct EventMatch {
     double precision() const;
     /// Harmonic mean of the two.
     double f1() const;
+    /// Exact ones that the measured run does not have, and those that only it has.
+    std::uint64_t missed() const { return exact - matched; }
+    std::uint64_t invented() const { return measured - matched; }
     /// Measured over exact, minus 1; nothing if only the measured run has collisions.
     std::optional<double> rateBias() const;
 };
@@ -36,6 +39,26 @@ struct EventMatch {
 /// Neither list has to be sorted.
 EventMatch matchEvents(std::span<const Event> exact, std::span<const Event> measured,
                        double tolerance);
+
+/// The same while two runs go on: memory is only taken for events that may still find a partner.
+class EventMatcher {
+  public:
+    explicit EventMatcher(double tolerance) : tolerance_(tolerance) {}
+
+    void addExact(const Event& event) { exact_.push_back(event); }
+    void addMeasured(const Event& event) { measured_.push_back(event); }
+
+    /// Says that all events before `time` have been added.
+    void advance(double time);
+
+    /// Of the events that are settled: they have a partner, or can have none any more.
+    const EventMatch& match() const { return match_; }
+
+  private:
+    double tolerance_;
+    std::vector<Event> exact_, measured_;  // not settled
+    EventMatch match_;
+};
 
 /// Position and velocity of a moving body.
 struct BodyState {
@@ -51,8 +74,10 @@ struct Quantiles {
 /// All zero if there are no values.
 Quantiles quantiles(std::vector<double> values);
 
-/// Bodies with a velocity component that differs from the exact one by more than `tolerance` px/s.
-/// Both states have the same length.
+/// Whether a component differs by more than `tolerance` px/s, or is no number.
+bool velocityDiffers(const Vec2& exact, const Vec2& measured, double tolerance);
+
+/// Bodies whose velocity differs from the exact one. Both states have the same length.
 std::size_t wrongBodies(std::span<const BodyState> exact, std::span<const BodyState> measured,
                         double tolerance);
 

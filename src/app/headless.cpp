@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/comparison_summary.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/run_session.hpp"
@@ -63,6 +64,11 @@ int runHeadless(Run run, const Options& options) {
     const Simulation& simulation = session.simulation();
     const RunStatistics& statistics = session.statistics();
     PeriodicReport report(wordsOf(options), simulation, session.start().total);
+    std::optional<ComparisonTable> table;
+    if (session.beside() != nullptr) {
+        table.emplace(wordsOf(options), std::array{options.label, options.beside->label},
+                      options.frames);
+    }
     const ProgressLine progress(options.frames, options.duration);
     catchInterrupts();
     bool deviceFailed = !simulation.resolverFailure().empty();
@@ -70,6 +76,10 @@ int runHeadless(Run run, const Options& options) {
     auto lastProgress = lastReport;
     while (!session.allFramesDone() && interruptedBy() == 0) {
         session.step();
+        if (table && session.beside()->met()) {
+            progress.wipe();
+            table->add(*session.beside()->last());
+        }
         const auto now = Clock::now();
         if (!deviceFailed && !simulation.resolverFailure().empty()) {
             progress.wipe();
@@ -80,7 +90,7 @@ int runHeadless(Run run, const Options& options) {
             progress.show(statistics.frames(), session.elapsed());
             lastProgress = now;
         }
-        if (secondsBetween(lastReport, now) >= options.reportEvery) {
+        if (!table && secondsBetween(lastReport, now) >= options.reportEvery) {
             progress.wipe();
             report.print(statistics);
             lastReport = now;
@@ -88,7 +98,11 @@ int runHeadless(Run run, const Options& options) {
         if (session.timeIsUp()) break;
     }
     progress.wipe();
-    report.print(statistics);
+    if (table) {
+        table->finish();
+    } else {
+        report.print(statistics);
+    }
     return session.finish();
 }
 

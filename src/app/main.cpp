@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
         // As the comparison does.
         if (options.error) run.simulation.onContact([](const Contact&) {});
         explain(std::cout, run, !options.headless);
+        if (run.beside) explain(std::cout, *run.beside, !options.headless);
         return done;
     }
     return options.headless ? runHeadless(setUp(options), options) : runWindow(options);

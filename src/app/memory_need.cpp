@@ -48,17 +48,28 @@ std::uint64_t memoryNeed(const SimulationConfig& config, std::uint64_t movingBod
     return static_cast<std::uint64_t>(std::min(bytes * double(movingBodies), 1e19));
 }
 
-template <class Wrong>
-void requireMemory(const Options& options, const std::string& file, std::uint64_t movingBodies,
-                   Law law, Precision precision) {
-    if (options.forceMemory) return;
+namespace {
+
+/// Of a run and of the one beside it, without the program itself.
+double needOf(const Options& options, std::uint64_t movingBodies, Law law, Precision precision) {
     SimulationConfig config;
     config.partitioner = options.partitioner;
     config.law = options.law.value_or(law);
     config.precision = options.precision.value_or(precision);
     config.resolver = options.resolver;
-    double need = double(memoryNeed(config, movingBodies, !options.headless)) + double(ofProgram);
+    double need = double(memoryNeed(config, movingBodies, !options.headless));
     if (options.error) need += ofReference * double(movingBodies);
+    if (options.beside) need += needOf(*options.beside, movingBodies, law, precision);
+    return need;
+}
+
+}  // namespace
+
+template <class Wrong>
+void requireMemory(const Options& options, const std::string& file, std::uint64_t movingBodies,
+                   Law law, Precision precision) {
+    if (options.forceMemory) return;
+    const double need = needOf(options, movingBodies, law, precision) + double(ofProgram);
     const std::uint64_t there = memoryOfMachine();
     if (need <= double(there)) return;
     const auto wanted = static_cast<std::uint64_t>(std::min(need, 1e19));

@@ -38,6 +38,8 @@ struct RawOptions {
     std::string resolver{name(ResolverKind::Auto)};
     std::string cudaThread = "body";
     std::string generate;
+    std::vector<std::string> compare;
+    bool sceneGiven = false;
 };
 
 double parseNumber(std::string_view text, const char* option) {
@@ -111,6 +113,26 @@ const auto positiveNumber = [] {
     return finiteNumber([](double value) { return value > 0; }, "above 0");
 };
 
+/// Writes "1/60" as the number that it is.
+const CLI::Validator fraction(
+    [](std::string& text) -> std::string {
+        const std::size_t slash = text.find('/');
+        if (slash == std::string::npos) return {};
+        double over = 0, under = 0;
+        const char* const end = text.data() + text.size();
+        const auto first = std::from_chars(text.data(), text.data() + slash, over);
+        const auto second = std::from_chars(text.data() + slash + 1, end, under);
+        const bool numbers = first.ec == std::errc() && first.ptr == text.data() + slash &&
+                             second.ec == std::errc() && second.ptr == end;
+        if (!numbers || under == 0) return "'" + text + "' is neither a number nor a fraction";
+        std::array<char, 32> digits{};
+        const auto written =
+            std::to_chars(digits.data(), digits.data() + digits.size(), over / under);
+        text.assign(digits.data(), written.ptr);
+        return {};
+    },
+    "");
+
 const CLI::Validator blockSize(
     [](std::string& text) -> std::string {
         int value = 0;
@@ -158,11 +180,11 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
                          std::string("collisionStress ") + version + " (" + commit() + ")");
     app.get_formatter()->column_width(38);
 
-    auto* scene =
-        app.add_option("scene,--scene", options.scene, "A name in scenes/ or a scene file")
-            ->type_name("NAME|FILE")
-            ->capture_default_str()
-            ->group("Scene");
+    auto* scene = app.add_option("scene,--scene", options.scene,
+                                 "A name in scenes/ or a scene file (" + options.scene + "; " +
+                                     openingScene + " in a window)")
+                      ->type_name("NAME|FILE")
+                      ->group("Scene");
     auto* set = app.add_option("--set", options.set,
                                "Put a value in place of the scene's: step.restitution=0.5, "
                                "spawn.0.count=1000; may be given often")
@@ -187,7 +209,8 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
         ->excludes(set)
         ->excludes(entities)
         ->excludes(seed);
-    app.add_option("--dt", options.dt, "Length of a step in s (the scene's)")
+    app.add_option("--dt", options.dt, "Length of a step in s, also as 1/60 (the scene's)")
+        ->transform(fraction)
         ->check(positiveNumber())
         ->type_name("SECONDS")
         ->group("Scene");
@@ -276,6 +299,12 @@ void declare(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_flag("--profile", options.profile, "Measure the phases of a frame")->group("Run");
     app.add_flag("--error", options.error, "Measure the error against the event-driven reference")
         ->group("Run");
+    app.add_option("--compare", raw.compare,
+                   "Hold this run against another from the same start: impulse,continuous, or "
+                   "what else they differ in, as dt=1/60,1/240; may be given for several options")
+        ->allow_extra_args(false)
+        ->type_name("[OPTION=]A,B")
+        ->group("Run");
     app.add_flag("--force-memory", options.forceMemory,
                  "Run even what needs more memory than there is")
         ->group("Run");
@@ -334,13 +363,14 @@ bool collide(const std::string& output, const std::string& other) {
 
 /// Two outputs would write over each other, under one name or two, and an output over an input.
 void refuseSharedFiles(const Options& options) {
-    const std::array<std::pair<const char*, const std::string*>, 6> outputs = {{
+    const std::array<std::pair<const char*, const std::string*>, 7> outputs = {{
         {"--json", &options.json},
         {"--csv", &options.csv},
         {"--dump-state", &options.dumpState},
         {"--dump-events", &options.dumpEvents},
         {"--save", &options.save},
         {"--screenshot", &options.window.screenshot},
+        {"--video", &options.window.video},
     }};
     const auto refuse = [](const char* first, const char* second) {
         throw UsageError(std::string(first) + " and " + second + " name the same file");
@@ -364,6 +394,8 @@ void refuseSharedFiles(const Options& options) {
 void interpret(Options& options, const RawOptions& raw) {
     options.partitioner = makePartitionerConfig(raw);
     options.resolver = find(resolvers(), raw.resolver).value();
+    const bool inWindow = !options.headless && !options.explain;
+    if (inWindow && !raw.sceneGiven) options.scene = openingScene;
     options.law = find(laws(), raw.law);
     options.precision = find(precisions(), raw.precision);
     options.cuda.threadPer = raw.cudaThread == "cell" ? CudaThread::Cell : CudaThread::Body;
@@ -373,8 +405,11 @@ void interpret(Options& options, const RawOptions& raw) {
     if (options.headless && options.window.offscreen) {
         throw UsageError("--offscreen draws what --headless leaves out: give one of the two");
     }
-    if (options.headless && !options.window.screenshot.empty()) {
-        throw UsageError("--screenshot: there is nothing to see with --headless");
+    for (const auto& [option, file] : {std::pair("--screenshot", &options.window.screenshot),
+                                       std::pair("--video", &options.window.video)}) {
+        if (options.headless && !file->empty()) {
+            throw UsageError(std::string(option) + ": there is nothing to see with --headless");
+        }
     }
     int onStdout = 0;
     for (const std::string* file :
@@ -415,15 +450,79 @@ std::optional<CLI::ExtrasError> refuseUnknownOptions(const CLI::App& app) {
                             CLI::ExitCodes::ExtrasError);
 }
 
-}  // namespace
+/// In what two runs differ that are to be compared.
+struct Difference {
+    std::string option;  ///< without dashes
+    std::array<std::string, 2> values;
+};
 
-ParsedOptions parseOptions(int argc, const char* const* argv) {
+/// What changes how a run goes on, and not where it starts.
+const std::vector<std::string> comparable = {
+    "law",       "dt",           "precision", "restitution", "partitioner", "cell-size",
+    "max-depth", "max-per-cell", "rebuild",   "resolver",    "threads"};
+
+Difference parseDifference(const std::string& text) {
+    const auto refuse = [&](const std::string& reason) {
+        throw UsageError("--compare: '" + text + "' " + reason);
+    };
+    const std::size_t equals = text.find('=');
+    const bool named = equals != std::string::npos;
+    Difference difference{.option = named ? text.substr(0, equals) : "law", .values = {}};
+    if (std::find(comparable.begin(), comparable.end(), difference.option) == comparable.end()) {
+        std::string names;
+        for (const std::string& name : comparable) names += (names.empty() ? "" : ", ") + name;
+        refuse("names no option in which two runs can differ; those are: " + names +
+               didYouMean(nearestNames(difference.option, comparable)));
+    }
+    const std::string values = text.substr(named ? equals + 1 : 0);
+    const std::size_t comma = values.find(',');
+    if (comma == std::string::npos || values.find(',', comma + 1) != std::string::npos) {
+        refuse("is not two values with a comma between them");
+    }
+    difference.values = {values.substr(0, comma), values.substr(comma + 1)};
+    if (difference.values[0].empty() || difference.values[1].empty()) refuse("lacks a value");
+    if (difference.values[0] == difference.values[1]) refuse("names the same twice");
+    return difference;
+}
+
+std::vector<Difference> parseDifferences(const CLI::App& app, const RawOptions& raw) {
+    std::vector<Difference> differences;
+    for (const std::string& text : raw.compare) {
+        Difference next = parseDifference(text);
+        if (app.count("--" + next.option) > 0) {
+            throw UsageError("--compare: '" + text + "' and --" + next.option +
+                             " say the same of a run");
+        }
+        for (const Difference& other : differences) {
+            if (other.option == next.option) {
+                throw UsageError("--compare: " + next.option + " is given twice");
+            }
+        }
+        differences.push_back(std::move(next));
+    }
+    return differences;
+}
+
+/// "impulse", or "dt 1/240" where it is not the law.
+std::string labelOf(const std::vector<Difference>& differences, std::size_t run) {
+    std::string label;
+    for (const Difference& difference : differences) {
+        if (!label.empty()) label += ", ";
+        if (difference.option != "law") label += difference.option + ' ';
+        label += difference.values[run];
+    }
+    return label;
+}
+
+/// Also says what two runs are to differ in, if that is asked for.
+ParsedOptions parseOnce(const std::vector<const char*>& arguments,
+                        std::vector<Difference>* differences) {
     CLI::App app("Runs and measures 2D rigid-box scenes.", "collisionStress");
     Options options;
     RawOptions raw;
     declare(app, options, raw);
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::ParseError& error) {
         const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
         // The value of an unknown option is taken for a scene, and what comes of that says less.
@@ -435,8 +534,39 @@ ParsedOptions parseOptions(int argc, const char* const* argv) {
         raw.generate == "man" ? writeManual(std::cout, app) : writeBashCompletion(std::cout, app);
         return {.options = std::nullopt, .exitCode = done};
     }
+    if (differences != nullptr) *differences = parseDifferences(app, raw);
+    raw.sceneGiven = app.get_option("--scene")->count() > 0;
     interpret(options, raw);
     return {.options = std::move(options), .exitCode = done};
+}
+
+/// The same command line, and what --compare says in it of one of the runs.
+ParsedOptions parseRun(const std::vector<const char*>& typed,
+                       const std::vector<Difference>& differences, std::size_t run) {
+    std::vector<std::string> words;
+    for (const Difference& difference : differences) {
+        words.push_back("--" + difference.option + '=' + difference.values[run]);
+    }
+    std::vector<const char*> arguments = {typed.front()};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    arguments.insert(arguments.end(), typed.begin() + 1, typed.end());
+    ParsedOptions parsed = parseOnce(arguments, nullptr);
+    if (parsed.options) parsed.options->label = labelOf(differences, run);
+    return parsed;
+}
+
+}  // namespace
+
+ParsedOptions parseOptions(int argc, const char* const* argv) {
+    const std::vector<const char*> typed(argv, argv + argc);
+    std::vector<Difference> differences;
+    ParsedOptions parsed = parseOnce(typed, &differences);
+    if (differences.empty() || !parsed.options) return parsed;
+    parsed = parseRun(typed, differences, 0);
+    ParsedOptions other = parsed.options ? parseRun(typed, differences, 1) : ParsedOptions{};
+    if (!other.options) return parsed.options ? other : parsed;
+    parsed.options->beside = std::make_shared<const Options>(std::move(*other.options));
+    return parsed;
 }
 
 }  // namespace quadrille::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,8 +21,8 @@ class UsageError : public std::runtime_error {
 
 /// The command line, checked.
 struct Options {
-    std::string scene = "balanced";
-    std::vector<std::string> set;  ///< what SceneOptions::set takes
+    std::string scene = "balanced";  ///< openingScene in a window
+    std::vector<std::string> set;    ///< what SceneOptions::set takes
     std::optional<std::uint64_t> entities;
     std::optional<std::uint64_t> seed;
 
@@ -50,6 +51,11 @@ struct Options {
     std::optional<std::uint64_t> saveEvery;  ///< frames
 
     WindowOptions window;
+
+    /// With --compare, the options of the run beside this one, and what it is called: what tells it
+    /// from the other.
+    std::shared_ptr<const Options> beside;
+    std::string label;
 };
 
 /// Either options, or the exit code of a program that has already said what there was to say

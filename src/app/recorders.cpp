@@ -15,6 +15,22 @@ void FrameRecorder::record(const Simulation& simulation, const StepReport& repor
                   << exact(kineticEnergy(simulation.world())) << '\n';
 }
 
+ComparisonRecorder::ComparisonRecorder(const std::string& file) : out_(file) {
+    out_.stream() << "frame,time,apart,wrong_bodies,missed,invented,matched,position_median,"
+                     "position_p99,position_max,overlap,overlap_beside,ms,ms_beside,same_state\n";
+}
+
+void ComparisonRecorder::record(const ComparedFrame& frame) {
+    const accuracy::Divergence& d = frame.divergence;
+    out_.stream() << frame.frame << ',' << exact(d.time) << ',' << d.apart << ',' << d.wrongBodies
+                  << ',' << d.events.missed() << ',' << d.events.invented() << ','
+                  << d.events.matched << ',' << exact(d.positionError.median) << ','
+                  << exact(d.positionError.p99) << ',' << exact(d.positionError.max) << ','
+                  << exact(d.overlapMax[0]) << ',' << exact(d.overlapMax[1]) << ','
+                  << exact(frame.milliseconds[0]) << ',' << exact(frame.milliseconds[1]) << ','
+                  << int(frame.stateHash[0] == frame.stateHash[1]) << '\n';
+}
+
 EventRecorder::EventRecorder(const std::string& file) : out_(file) {
     out_.stream() << "t,i,j,axis,impulse_x,impulse_y,approach_x,approach_y\n";
 }

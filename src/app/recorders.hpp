@@ -5,6 +5,7 @@
 #include <quadrille/quadrille.hpp>
 
 #include "app/output_file.hpp"
+#include "app/run_beside.hpp"
 
 namespace quadrille::app {
 
@@ -15,6 +16,17 @@ class FrameRecorder {
   public:
     explicit FrameRecorder(const std::string& file);
     void record(const Simulation& simulation, const StepReport& report, double milliseconds);
+    void commit() { out_.commit(); }
+
+  private:
+    OutputFile out_;
+};
+
+/// A row for every time at which two compared runs meet.
+class ComparisonRecorder {
+  public:
+    explicit ComparisonRecorder(const std::string& file);
+    void record(const ComparedFrame& frame);
     void commit() { out_.commit(); }
 
   private:

@@ -7,9 +7,11 @@
 
 #include <quadrille/names.hpp>
 
+#include "app/comparison_summary.hpp"
 #include "app/error_summary.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/step_time.hpp"
 
 namespace quadrille::app {
 
@@ -45,7 +47,9 @@ RunSession::RunSession(Run run, const Options& options)
     if (!options.json.empty()) json_.emplace(options.json);
     if (!options.dumpState.empty()) state_.emplace(options.dumpState);
     if (!options.save.empty()) requireWritable(options.save);
-    if (!options.csv.empty()) frames_.emplace(options.csv);
+    if (run_.beside) beside_.emplace(run_.simulation, std::move(run_.beside));
+    if (!options.csv.empty() && beside_) comparison_.emplace(options.csv);
+    if (!options.csv.empty() && !beside_) frames_.emplace(options.csv);
     if (!options.dumpEvents.empty()) events_.emplace(options.dumpEvents);
     if (options.error) meter_.emplace(run_.simulation);
     start_ = Conserved::of(run_.simulation);
@@ -54,25 +58,29 @@ RunSession::RunSession(Run run, const Options& options)
 
 const StepReport& RunSession::step() {
     keepCheckpoint();
-    const StepReport* report = nullptr;
-    std::chrono::duration<double> seconds{};
+    std::optional<TimedStep> step;
+    std::chrono::duration<double> followed{};
     const auto age = Clock::now() - checkpoint_->taken;
     watch_.section(std::max<Clock::duration>(leastGrace, age), [&] {
-        const auto before = Clock::now();
-        report = &run_.simulation.step();
-        seconds = Clock::now() - before;
+        step.emplace(timedStep(run_.simulation));
+        const auto stepped = Clock::now();
         if (meter_) meter_->follow();
+        followed = Clock::now() - stepped;
+        if (beside_) beside_->follow();
     });
     if (std::exchange(progressShown_, false)) progressLine().wipe();
-    const double milliseconds =
-        1e3 * (seconds.count() - report->auditSeconds - report->observeSeconds);
-    statistics_.add(*report, milliseconds);
+    const StepReport& report = step->report;
+    const double milliseconds = step->milliseconds;
+    errorSeconds_ = followed.count() + report.auditSeconds;
+    statistics_.add(report, milliseconds);
+    if (beside_) beside_->compare(milliseconds);
     if (events_) {
         for (const Contact& contact : run_.simulation.contacts()) events_->record(contact);
     }
-    if (frames_) frames_->record(run_.simulation, *report, milliseconds);
+    if (frames_) frames_->record(run_.simulation, report, milliseconds);
+    if (comparison_ && beside_->met()) comparison_->record(*beside_->last());
     keepSnapshot();
-    return *report;
+    return report;
 }
 
 void RunSession::reconfigure(const SimulationConfig& config) {
@@ -129,7 +137,8 @@ int RunSession::leaveFrame(int signal) {
     Run run{.scene = run_.scene,
             .seed = run_.seed,
             .requestedResolver = run_.requestedResolver,
-            .simulation = Simulation(std::move(checkpoint_->snapshot.world), config)};
+            .simulation = Simulation(std::move(checkpoint_->snapshot.world), config),
+            .beside = nullptr};
     run.simulation.resumeAt(checkpoint_->snapshot.stepsDone);
     run.simulation.run(stepsBefore_ + statistics_.frames() - run.simulation.stepsDone());
     progressLine().wipe();
@@ -170,7 +179,12 @@ int RunSession::conclude(const Run& run, int signal, bool insideFrame) {
             printError(words, summary["error"]);
         }
     }
+    if (beside_) {
+        summary["comparison"] = comparisonJson(insideFrame);
+        printComparison(words, summary["comparison"]);
+    }
     if (frames_) frames_->commit();
+    if (comparison_) comparison_->commit();
     if (events_) events_->commit();
     if (state_) writeState(*state_, run.simulation.world());
     if (!options_.save.empty()) save(run);
@@ -179,6 +193,16 @@ int RunSession::conclude(const Run& run, int signal, bool insideFrame) {
         json_->commit();
     }
     return signal != 0 ? interruptedBySignal + signal : done;
+}
+
+/// With what the run beside came to, unless it is left inside a frame.
+nlohmann::ordered_json RunSession::comparisonJson(bool insideFrame) const {
+    nlohmann::ordered_json beside;
+    if (!insideFrame) {
+        beside = summaryJson(beside_->run(), beside_->statistics(), beside_->start());
+    }
+    return app::comparisonJson({options_.label, options_.beside->label}, beside_->last(),
+                               std::move(beside));
 }
 
 }  // namespace quadrille::app

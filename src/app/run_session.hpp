@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include <quadrille/quadrille.hpp>
@@ -12,6 +13,7 @@
 #include "app/output_file.hpp"
 #include "app/progress.hpp"
 #include "app/recorders.hpp"
+#include "app/run_beside.hpp"
 #include "app/run_setup.hpp"
 #include "app/run_statistics.hpp"
 #include "app/run_watch.hpp"
@@ -37,10 +39,20 @@ class RunSession {
     RunStatistics& statistics() { return statistics_; }
     const RunStatistics& statistics() const { return statistics_; }
     const Conserved& start() const { return start_; }
+    /// The run that it is compared with, or null.
+    RunBeside* beside() { return beside_ ? &*beside_ : nullptr; }
+    const RunBeside* beside() const { return beside_ ? &*beside_ : nullptr; }
 
     /// One frame. A signal ends the program in it if it lasts: with the state, and all outputs, of
     /// the end of the frame before.
     const StepReport& step();
+
+    /// Whether --error compares the run with the reference.
+    bool measuresError() const { return meter_.has_value(); }
+    /// What that took of the last frame, s.
+    double errorSeconds() const { return errorSeconds_; }
+    /// How large the error is so far. Throws Error if it cannot be said any more.
+    accuracy::ErrorMetrics errorSoFar() const { return meter_.value().metrics(); }
 
     /// Changes what a step is made with, as Simulation::reconfigure does.
     void reconfigure(const SimulationConfig& config);
@@ -72,6 +84,7 @@ class RunSession {
     int leaveFrame(int signal);
     ProgressLine progressLine() const { return {options_.frames, options_.duration}; }
     void showProgress(std::chrono::duration<double> inFrame);
+    nlohmann::ordered_json comparisonJson(bool insideFrame) const;
     int conclude(const Run& run, int signal, bool insideFrame);
 
     Run run_;
@@ -79,8 +92,11 @@ class RunSession {
     std::uint64_t stepsBefore_ = 0;  // of the run that a snapshot is of
     std::optional<OutputFile> json_, state_;
     std::optional<FrameRecorder> frames_;
+    std::optional<ComparisonRecorder> comparison_;
     std::optional<EventRecorder> events_;
     std::optional<accuracy::ErrorMeter> meter_;
+    std::optional<RunBeside> beside_;
+    double errorSeconds_ = 0;
     Conserved start_;
     RunStatistics statistics_;
     Clock::time_point begin_;

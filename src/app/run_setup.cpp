@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -24,16 +25,24 @@ struct Start {
     World world;
     StepSettings step;
     std::optional<Law> law;
+    std::optional<std::uint64_t> spawned = {};
     std::uint64_t stepsDone = 0;
 };
 
+/// What a run and the one that it is compared with have in common.
+struct Common {
+    bool mayMissPairs = false;  ///< one of them
+    bool floatStart = false;    ///< both start where the less precise one can
+    bool warn = true;           ///< of what holds for both
+};
+
 /// Of runs that neither the command line nor the scene names one for.
-Law unnamedLaw(const Options& options) {
+Law unnamedLaw(const Common& common) {
     // The default needs every pair; who asks for the report's policy wants to see it miss some.
-    return mayMissPairs(options.partitioner) ? Law::Impulse : SimulationConfig{}.law;
+    return common.mayMissPairs ? Law::Impulse : SimulationConfig{}.law;
 }
 
-Start loadStart(const Options& options) {
+Start loadStart(const Options& options, const Common& common) {
     if (!options.load.empty()) {
         Snapshot snapshot = loadSnapshot(options.load);
         requireMemory<SnapshotError>(options, options.load, snapshot.world.movingCount(),
@@ -54,22 +63,23 @@ Start loadStart(const Options& options) {
                          .renderers = !options.headless,
                          .announce = [&](std::uint64_t movingBodies, std::optional<Law> law) {
                              requireMemory<SceneError>(options, file.string(), movingBodies,
-                                                       law.value_or(unnamedLaw(options)));
+                                                       law.value_or(unnamedLaw(common)));
                          }});
     return {.file = file.string(),
             .scene = std::move(scene.name),
             .seed = scene.seed,
             .world = std::move(scene.world),
             .step = scene.step,
-            .law = scene.law};
+            .law = scene.law,
+            .spawned = scene.spawned};
 }
 
 /// The law to run, with a warning if it is not the default only because that cannot be run.
-Law chooseLaw(const Options& options, const Start& start) {
+Law chooseLaw(const Options& options, const Common& common, const Start& start) {
     if (options.law) return *options.law;
     if (start.law) return *start.law;
-    const Law law = unnamedLaw(options);
-    if (law != SimulationConfig{}.law) {
+    const Law law = unnamedLaw(common);
+    if (law != SimulationConfig{}.law && common.warn) {
         std::cerr << "collisionStress: warning: the law '" << name(SimulationConfig{}.law)
                   << "' needs a partition that misses no pair; running '" << name(law) << "'\n";
     }
@@ -98,7 +108,6 @@ ResolverKind runnable(ResolverKind wanted, Law law, bool fallback) {
 
 /// Single precision may be too narrow for a scene, and that is not known before it is loaded.
 void narrow(Start& start, const Options& options, const SimulationConfig& config) {
-    if (config.precision != Precision::Float) return;
     const auto dt = static_cast<float>(config.step.dt);
     if (!(std::isfinite(dt) && dt > 0)) {
         if (options.dt) throw UsageError("--dt: does not fit single precision");
@@ -108,7 +117,7 @@ void narrow(Start& start, const Options& options, const SimulationConfig& config
         throw SceneError(start.file + ": step.gravity: does not fit single precision");
     }
     try {
-        start.world.setPrecision(config.precision);
+        start.world.setPrecision(Precision::Float);
     } catch (const Error& error) {
         throw SceneError(start.file + ": " + error.what());
     }
@@ -129,6 +138,39 @@ void requireGrid(const Options& options, const World& world) {
 /// where there are more bodies.
 constexpr std::size_t mostAuditedInEveryFrame = 20'000;
 
+Run setUpOne(const Options& options, const Common& common) {
+    Start start = loadStart(options, common);
+    SimulationConfig config;
+    config.partitioner = options.partitioner;
+    config.law = chooseLaw(options, common, start);
+    config.precision = options.precision.value_or(start.world.precision());
+    config.threads = options.threads.value_or(0);
+    config.resolver = runnable(options.resolver, config.law, options.fallback);
+    config.step = start.step;
+    if (options.dt) config.step.dt = *options.dt;
+    if (options.restitution) config.step.restitution = *options.restitution;
+    config.keepContacts = !options.dumpEvents.empty();
+    config.profile = options.profile;
+    config.countMissedPairs = options.error || mayMissPairs(options.partitioner);
+    if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {
+        config.missedPairsEvery = 10;
+    }
+    requireGrid(options, start.world);
+    if (common.floatStart || config.precision == Precision::Float) narrow(start, options, config);
+    config.cuda = options.cuda;
+    config.fallback = options.fallback;
+    Run run{.scene = std::move(start.scene),
+            .seed = start.seed,
+            .requestedResolver = options.resolver,
+            .simulation = Simulation(std::move(start.world), config),
+            .lawNamed = start.law.has_value(),
+            .spawned = start.spawned,
+            .beside = nullptr};
+    run.simulation.resumeAt(start.stepsDone);
+    if (!run.simulation.resolverFailure().empty()) warnOfFallback(run);
+    return run;
+}
+
 }  // namespace
 
 void warnOfFallback(const Run& run) {
@@ -144,32 +186,16 @@ bool mayMissPairs(const PartitionerConfig& partitioner) {
 }
 
 Run setUp(const Options& options) {
-    Start start = loadStart(options);
-    SimulationConfig config;
-    config.partitioner = options.partitioner;
-    config.law = chooseLaw(options, start);
-    config.precision = options.precision.value_or(start.world.precision());
-    config.threads = options.threads.value_or(0);
-    config.resolver = runnable(options.resolver, config.law, options.fallback);
-    config.step = start.step;
-    if (options.dt) config.step.dt = *options.dt;
-    if (options.restitution) config.step.restitution = *options.restitution;
-    config.keepContacts = !options.dumpEvents.empty();
-    config.profile = options.profile;
-    config.countMissedPairs = options.error || mayMissPairs(options.partitioner);
-    if (options.error && start.world.movingCount() > mostAuditedInEveryFrame) {
-        config.missedPairsEvery = 10;
+    if (!options.beside) {
+        return setUpOne(options, {.mayMissPairs = mayMissPairs(options.partitioner)});
     }
-    requireGrid(options, start.world);
-    narrow(start, options, config);
-    config.cuda = options.cuda;
-    config.fallback = options.fallback;
-    Run run{.scene = std::move(start.scene),
-            .seed = start.seed,
-            .requestedResolver = options.resolver,
-            .simulation = Simulation(std::move(start.world), config)};
-    run.simulation.resumeAt(start.stepsDone);
-    if (!run.simulation.resolverFailure().empty()) warnOfFallback(run);
+    const Options& other = *options.beside;
+    Common common = {
+        .mayMissPairs = mayMissPairs(options.partitioner) || mayMissPairs(other.partitioner),
+        .floatStart = options.precision != other.precision};
+    Run run = setUpOne(options, common);
+    common.warn = false;
+    run.beside = std::make_unique<Run>(setUpOne(other, common));
     return run;
 }
 

@@ -1,6 +1,7 @@
 #include "app/scene_catalog.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <system_error>
 
 #include <quadrille/names.hpp>
@@ -34,6 +35,20 @@ std::vector<std::string> sceneNames() {
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+std::string aboutScene(const fs::path& file) {
+    std::ifstream in(file);
+    std::string comment;
+    for (std::string line; std::getline(in, line) && line.starts_with('#');) {
+        const std::size_t start = std::min(line.find_first_not_of("# "), line.size());
+        comment += (comment.empty() ? "" : " ") + line.substr(start);
+        while (!comment.empty() && (comment.back() == '\r' || comment.back() == ' ')) {
+            comment.pop_back();
+        }
+    }
+    const std::size_t end = comment.find(". ");
+    return end == std::string::npos ? comment : comment.substr(0, end + 1);
 }
 
 bool isScenePath(const std::string& nameOrFile) {

@@ -9,6 +9,13 @@ namespace quadrille::app {
 /// The scene files that come with the program, by name.
 std::vector<std::string> sceneNames();
 
+/// What a scene file says of itself: the first sentence of the comment that it begins with, or
+/// nothing.
+std::string aboutScene(const std::filesystem::path& file);
+
+/// What a window opens on, since something happens in it.
+inline constexpr const char* openingScene = "gap";
+
 /// Whether this is the path of a file and not a name.
 bool isScenePath(const std::string& nameOrFile);
 

@@ -254,6 +254,7 @@ Scene loadScene(const std::filesystem::path& file, const SceneOptions& options) 
                     .world = at(description.worldPlace, [&] { return World(config); }),
                     .step = description.step,
                     .law = description.law};
+        if (!description.spawns.empty()) scene.spawned = description.spawns.front().group.count;
         World& world = scene.world;
         Vec2 room = config.size;
         if (description.walls) {

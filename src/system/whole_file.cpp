@@ -162,6 +162,7 @@ class WholeFile::Impl {
     Impl& operator=(const Impl&) = delete;
 
     std::ostream& stream() { return stream_; }
+    fs::path temporary() const { return temporary_ ? fs::path(*temporary_) : fs::path(); }
 
     void commit() {
         stream_.flush();
@@ -229,6 +230,8 @@ WholeFile::WholeFile(const fs::path& target, Special special)
 WholeFile::~WholeFile() = default;
 
 std::ostream& WholeFile::stream() { return impl_->stream(); }
+
+fs::path WholeFile::temporary() const { return impl_->temporary(); }
 
 void WholeFile::commit() { impl_->commit(); }
 

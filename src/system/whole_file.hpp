@@ -26,6 +26,9 @@ class WholeFile {
     /// Errors on the way are kept until `commit`.
     std::ostream& stream();
 
+    /// Where it grows, for a program that writes it by itself; not of a device or a pipe.
+    std::filesystem::path temporary() const;
+
     /// Throws Error, which names the file, if anything could not be written; the target is then as
     /// it was.
     void commit();

@@ -2,9 +2,12 @@
 
 #include "accuracy/metrics.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
 #include <vector>
+
+#include <quadrille/random.hpp>
 
 namespace quadrille::accuracy {
 namespace {
@@ -59,6 +62,60 @@ TEST(MatchEvents, AsManyAsPossibleAreMatched) {
                   .matched,
               3u);
     EXPECT_EQ(match({{1, 0, 1, 1}, {2, 0, 1, 1}}, {{1.9, 0, 1, 1}, {2.9, 0, 1, 1}}).matched, 1u);
+}
+
+/// Whatever is in which slice, the same events find partners.
+TEST(EventMatcher, InSlicesCountsWhatMatchEventsCounts) {
+    Random random(7);
+    std::vector<Event> exact, measured;
+    for (int k = 0; k < 4000; ++k) {
+        const Event event{random.uniform(0, 100), k % 5, 5 + k % 7, 1 + k % 2};
+        if (random.uniform(0, 1) < 0.8) exact.push_back(event);
+        Event other = event;
+        other.time = std::min(100.0, other.time + random.uniform(0, 1.5 * tolerance));
+        if (random.uniform(0, 1) < 0.8) measured.push_back(other);
+    }
+    const EventMatch whole = match(exact, measured);
+    ASSERT_GT(whole.missed(), 100u);
+    ASSERT_GT(whole.invented(), 100u);
+    for (const double slice : {0.03, tolerance, 1.0, 200.0}) {
+        EventMatcher matcher(tolerance);
+        std::uint64_t settled = 0;
+        for (double from = 0; from <= 100; from += slice) {
+            const auto inSlice = [&](const Event& event) {
+                return event.time >= from && event.time < from + slice;
+            };
+            for (const Event& event : exact) {
+                if (inSlice(event)) matcher.addExact(event);
+            }
+            for (const Event& event : measured) {
+                if (inSlice(event)) matcher.addMeasured(event);
+            }
+            matcher.advance(from + slice);
+            // What is settled stays.
+            EXPECT_GE(matcher.match().exact, settled);
+            settled = matcher.match().exact;
+        }
+        matcher.advance(1000);
+        EXPECT_EQ(matcher.match().matched, whole.matched) << slice;
+        EXPECT_EQ(matcher.match().missed(), whole.missed()) << slice;
+        EXPECT_EQ(matcher.match().invented(), whole.invented()) << slice;
+    }
+}
+
+/// A collision of this step may have its partner in the next.
+TEST(EventMatcher, AnEventThatMayStillFindAPartnerIsNotMissed) {
+    EventMatcher matcher(tolerance);
+    matcher.addExact({1, 0, 1, 1});
+    matcher.advance(1.2);
+    EXPECT_EQ(matcher.match().missed(), 0u);
+    matcher.addMeasured({1.25, 0, 1, 1});
+    matcher.advance(1.4);
+    EXPECT_EQ(matcher.match().matched, 1u);
+    matcher.addExact({2, 0, 1, 1});
+    matcher.advance(2.26);
+    EXPECT_EQ(matcher.match().missed(), 1u);
+    EXPECT_EQ(matcher.match().invented(), 0u);
 }
 
 TEST(MatchEvents, NothingIsFoundCompletely) {

@@ -21,7 +21,8 @@ TEST(Help, ListsEveryOption) {
           "--save",        "--load",         "--screenshot",   "--no-fallback", "--list",
           "--version",     "--help",         "--window-size",  "--size",        "--offscreen",
           "--hide-panels", "--paused",       "--speed",        "--show",        "--color-by",
-          "--no-vsync",    "--force-memory", "--set",          "--save-every",  "--generate"}) {
+          "--no-vsync",    "--force-memory", "--set",          "--save-every",  "--generate",
+          "--compare",     "--history"}) {
         EXPECT_TRUE(contains(result.out, option)) << option;
     }
 }

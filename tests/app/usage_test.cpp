@@ -48,9 +48,9 @@ TEST(Usage, UnknownRebuildListsTheValidOnes) {
 }
 
 TEST(Usage, UnknownSceneListsTheValidOnes) {
-    expectUsageError({"--scene", "balancd"},
-                     {"--scene", "balancd", "balanced", "balanced-scaled", "bullet", "cradle",
-                      "demo13k", "imbalanced", "imbalanced-clear", "mixed-sizes", "pi", "pile"});
+    expectUsageError({"--scene", "balancd"}, {"--scene", "balancd", "balanced", "balanced-scaled",
+                                              "bullet", "cradle", "demo13k", "gap", "imbalanced",
+                                              "imbalanced-clear", "mixed-sizes", "pi", "pile"});
 }
 
 struct Mistyped {
@@ -150,10 +150,12 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"--size", "0x480"}, Arguments{"--size", "640x480x2"},
         Arguments{"--size", "640;480"}, Arguments{"--size", "9e3x480"}, Arguments{"--speed", "0"},
         Arguments{"--speed", "-1"}, Arguments{"--speed", "nan"}, Arguments{"--speed", "fast"},
-        Arguments{"--show", "cells"}, Arguments{"--show", "gridlines,cells"},
-        Arguments{"--color-by", "mass"}, Arguments{"--threads", "0"}, Arguments{"--threads", "-1"},
-        Arguments{"--threads", "1.5"}, Arguments{"--threads", "many"},
-        Arguments{"--threads", "1025"}, Arguments{"--threads", "99999999999999999999"}),
+        Arguments{"--history", "much"}, Arguments{"--history", "-1MB"},
+        Arguments{"--history", "5TB"}, Arguments{"--show", "cells"},
+        Arguments{"--show", "gridlines,cells"}, Arguments{"--color-by", "mass"},
+        Arguments{"--threads", "0"}, Arguments{"--threads", "-1"}, Arguments{"--threads", "1.5"},
+        Arguments{"--threads", "many"}, Arguments{"--threads", "1025"},
+        Arguments{"--threads", "99999999999999999999"}),
     nameOf);
 
 class ImpossibleCount : public testing::TestWithParam<std::vector<std::string>> {};
@@ -180,7 +182,7 @@ TEST(Usage, MissingValues) {
           "--max-depth",    "--max-per-cell", "--rebuild",    "--resolver",    "--threads",
           "--law",          "--precision",    "--dt",         "--restitution", "--duration",
           "--report-every", "--json",         "--csv",        "--dump-state",  "--dump-events",
-          "--save",         "--load",         "--screenshot", "--save-every"}) {
+          "--save",         "--load",         "--screenshot", "--save-every",  "--compare"}) {
         expectUsageError({option}, {option});
     }
     expectRefusal({"--headless", "--frames"}, 2, {"--frames"});

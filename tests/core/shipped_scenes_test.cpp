@@ -30,6 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, ShippedScene,
     testing::Values(Shipped{"balanced", 50000, 4}, Shipped{"balanced-scaled", 50000, 4},
                     Shipped{"bullet", 1, 1}, Shipped{"cradle", 8, 0}, Shipped{"demo13k", 13400, 4},
+                    Shipped{"echo", 657, 4}, Shipped{"gap", 2303, 6},
                     Shipped{"imbalanced", 1700, 8}, Shipped{"imbalanced-clear", 1700, 8},
                     Shipped{"mixed-sizes", 3000, 4}, Shipped{"pi", 2, 1}, Shipped{"pile", 1000, 4}),
     [](const auto& instance) {

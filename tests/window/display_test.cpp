@@ -1,4 +1,6 @@
+#include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "scenes.hpp"
 #include "window_run.hpp"
@@ -147,6 +149,11 @@ TEST_F(WindowDisplay, ColoursFollowSpeedAndCell) {
     EXPECT_TRUE(shows(fast.x, fast.y, fillOf({253, 231, 37})));
     EXPECT_TRUE(near(screen_->pixel(slow.x, slow.y), fillOf({72, 62, 160})));
     EXPECT_TRUE(near(screen_->pixel(wall.x, wall.y), blue));
+    screen_->press("v");  // by energy: 2048 of the 5000 at which the scale ends
+    EXPECT_TRUE(shows(fast.x, fast.y, fillOf({64, 142, 178})));
+    EXPECT_TRUE(near(screen_->pixel(slow.x, slow.y), fillOf({52, 62, 120})));
+    screen_->press("v");  // by the time since the last hit: nobody was hit
+    EXPECT_TRUE(shows(fast.x, fast.y, fillOf({82, 62, 140})));
     screen_->press("v");  // by cell: there are none before the first step
     EXPECT_TRUE(shows(slow.x, slow.y, red));
     screen_->press("period");
@@ -156,8 +163,8 @@ TEST_F(WindowDisplay, ColoursFollowSpeedAndCell) {
     close();
 }
 
-TEST_F(WindowDisplay, ContactsAreMarked) {
-    startPaused(write("touch.toml", R"(
+/// A box of 4 kg that runs into another at 64 px/s, along x.
+constexpr const char* touchScene = R"(
 format = 1
 name = "touch"
 [world]
@@ -167,18 +174,134 @@ dt = 0.015625
 [[body]]
 position = [-10.25, 0]
 size = [20, 20]
+mass = 4
 velocity = [64, 0]
 color = "#ff0000"
 [[body]]
 position = [10.25, 0]
 size = [20, 20]
+mass = 4
 color = "#00ff00"
-)"),
-                {"--show", "contacts"});
-    const Place between = place(0, 0);
-    ASSERT_TRUE(shows(between.x, between.y, background));
+[[body]]
+position = [-60, -30]
+size = [20, 20]
+color = "#0000ff"
+)";
+
+/// How far a colour reaches from a place to the right, points.
+int reachOf(const Image& image, int x, int y, const Rgb& color) {
+    int reach = 0;
+    while (near(image.at(x + reach, y), color, 12)) ++reach;
+    return reach;
+}
+
+TEST_F(WindowDisplay, ContactsAreMarkedWithTheirAxisAndImpulse) {
+    startPaused(write("touch.toml", touchScene), {"--show", "contacts"});
+    constexpr Rgb collided{255, 120, 80};
+    const Place between = place(0.5, 0), side = place(0.5, 8);
+    ASSERT_TRUE(shows(place(0, 0).x, place(0, 0).y, background));
     screen_->press("period");
-    EXPECT_TRUE(shows(between.x, between.y, {255, 120, 80}));
+    ASSERT_TRUE(shows(between.x, between.y, collided));
+    const Image image = screen_->image();
+    // The line of the impulse lies along x, that of the sides along y.
+    EXPECT_GT(reachOf(image, between.x, between.y, collided), 12);
+    EXPECT_TRUE(near(image.at(side.x, side.y), collided, 12)) << image.at(side.x, side.y);
+    EXPECT_LT(reachOf(image, side.x, side.y, collided), 5);
+    // At another zoom, too.
+    for (int i = 0; i < 14; ++i) screen_->press("Next");
+    screen_->press("Home");
+    EXPECT_TRUE(shows(between.x, between.y, collided));
+    screen_->press("c");
+    EXPECT_TRUE(
+        eventually([&] { return !near(screen_->pixel(between.x, between.y), collided, 12); }));
+    close();
+}
+
+TEST_F(WindowDisplay, ArrowsShowVelocities) {
+    startPaused(write("still.toml", stillScene));
+    constexpr Rgb arrow{190, 230, 255};
+    const Place mover = place(0, 0), still = place(-60, 30);
+    ASSERT_TRUE(shows(mover.x + 3, mover.y, fillOf({255, 0, 255})));
+    screen_->press("a");
+    ASSERT_TRUE(shows(mover.x + 3, mover.y, arrow));
+    const Image image = screen_->image();
+    // To the right, 64 of the 100 px/s that 44 points stand for; what stands still has none.
+    EXPECT_NEAR(reachOf(image, mover.x + 3, mover.y, arrow), 44 * 0.64 - 3, 3);
+    EXPECT_TRUE(near(image.at(mover.x - 4, mover.y), fillOf({255, 0, 255}), 40));
+    EXPECT_TRUE(near(image.at(still.x, still.y), red));
+    screen_->press("a");
+    EXPECT_TRUE(shows(mover.x + 3, mover.y, fillOf({255, 0, 255})));
+    close();
+}
+
+TEST_F(WindowDisplay, ColoursFollowTheTimeSinceTheLastHit) {
+    startPaused(write("touch.toml", touchScene), {"--color-by", "since-hit"});
+    const Place hit = place(16, 0), never = place(-60, -30);
+    ASSERT_TRUE(shows(hit.x, hit.y, fillOf({82, 62, 140})));
+    screen_->press("period");
+    // The scale ends at 10 ms: it was hit half of a step ago.
+    EXPECT_TRUE(eventually([&] {
+        return near(screen_->pixel(hit.x, hit.y), fillOf({146, 54, 154}), 6);
+    })) << screen_->pixel(hit.x, hit.y);
+    EXPECT_TRUE(near(screen_->pixel(never.x, never.y), fillOf({82, 62, 140})));
+    close();
+}
+
+/// The legend stands in the lower right corner, and shows the colours of the scale.
+TEST_F(WindowDisplay, ColourScalesHaveLegends) {
+    startPaused(write("still.toml", stillScene));
+    // From the yellow end of a scale to its dark one, somewhere on one line.
+    const auto hasScale = [&](const Rgb& first, const Rgb& last) {
+        const Image image = screen_->image();
+        for (int y = height - 160; y < height; ++y) {
+            int from = 0, to = 0;
+            for (int x = width - 240; x < width; ++x) {
+                if (near(image.at(x, y), first, 8) && from == 0) from = x;
+                if (near(image.at(x, y), last, 8)) to = x;
+            }
+            if (from > 0 && to > from + 100) return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(hasScale({72, 62, 160}, {253, 231, 37}));
+    screen_->press("v");
+    EXPECT_TRUE(eventually([&] { return hasScale({72, 62, 160}, {253, 231, 37}); }));
+    screen_->press("v");
+    EXPECT_TRUE(eventually([&] { return hasScale({52, 62, 120}, {255, 252, 204}); }));
+    screen_->press("v");
+    EXPECT_TRUE(eventually([&] { return hasScale({240, 249, 33}, {82, 62, 140}); }));
+    screen_->press("m");
+    EXPECT_TRUE(eventually([&] { return hasScale({31, 12, 72}, {247, 209, 61}); }));
+    EXPECT_TRUE(hasScale({240, 249, 33}, {82, 62, 140}));
+    close();
+}
+
+/// A box covers as much of the pixels around it as it is large.
+TEST_F(WindowDisplay, SmallBoxesKeepTheirShareOfAPixel) {
+    std::string scene = "format = 1\nname = \"small\"\n[world]\nsize = [2000, 1000]\n";
+    const auto body = [&](double x, double side) {
+        scene += "[[body]]\nposition = [" + std::to_string(x) + ", 0]\nsize = [" +
+                 std::to_string(side) + ", " + std::to_string(side) + "]\ncolor = \"#ffffff\"\n";
+    };
+    body(-600, 1.4);  // points: 0.67
+    body(0, 4);       // 1.9
+    body(600, 7);     // 3.4
+    startPaused(write("small.toml", scene));
+    const Image image = screen_->image();
+    const double zoom = (width - panelWidth) / (2000 * 1.02);
+    const auto lightAt = [&](double x) {
+        const Place p = placeOf(2000, 1000, x, 0);
+        double sum = 0;
+        for (int dx = -6; dx <= 6; ++dx) {
+            for (int dy = -6; dy <= 6; ++dy) {
+                sum += double(image.at(p.x + dx, p.y + dy).r - background.r) / (255 - background.r);
+            }
+        }
+        return sum;
+    };
+    EXPECT_NEAR(lightAt(-600), std::pow(1.4 * zoom, 2), 0.1);
+    EXPECT_NEAR(lightAt(0), std::pow(4 * zoom, 2), 0.3);
+    EXPECT_NEAR(lightAt(600), std::pow(7 * zoom, 2), 0.7);
     close();
 }
 

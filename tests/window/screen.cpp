@@ -132,6 +132,14 @@ Image Screen::image() {
     return image;
 }
 
+void Screen::wantDotsPerInch(int dots) {
+    const std::string text = "Xft.dpi:\t" + std::to_string(dots) + "\n";
+    XChangeProperty(display_, DefaultRootWindow(display_), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                    PropModeReplace, reinterpret_cast<const unsigned char*>(text.data()),
+                    int(text.size()));
+    XSync(display_, False);
+}
+
 void Screen::moveMouse(int x, int y) {
     XTestFakeMotionEvent(display_, -1, x, y, CurrentTime);
     XSync(display_, False);
@@ -144,11 +152,16 @@ void Screen::click(int x, int y) {
     XSync(display_, False);
 }
 
-void Screen::drag(int fromX, int fromY, int toX, int toY) {
+void Screen::drag(int fromX, int fromY, int toX, int toY, Process::Seconds pause) {
     moveMouse(fromX, fromY);
+    std::this_thread::sleep_for(pause);
     XTestFakeButtonEvent(display_, leftButton, True, CurrentTime);
+    XSync(display_, False);
+    std::this_thread::sleep_for(pause);
     moveMouse((fromX + toX) / 2, (fromY + toY) / 2);
+    std::this_thread::sleep_for(pause);
     moveMouse(toX, toY);
+    std::this_thread::sleep_for(pause);
     XTestFakeButtonEvent(display_, leftButton, False, CurrentTime);
     XSync(display_, False);
 }
@@ -210,6 +223,30 @@ void answer(Display* display, const XSelectionRequestEvent& request, const std::
 }
 
 }  // namespace
+
+bool Screen::asksForFullScreen(const std::string& key, bool full) {
+    // What is sent to the root window reaches who looks after its children.
+    XSelectInput(display_, DefaultRootWindow(display_),
+                 SubstructureNotifyMask | SubstructureRedirectMask);
+    const Atom state = XInternAtom(display_, "_NET_WM_STATE", False);
+    const auto fullScreen =
+        static_cast<long>(XInternAtom(display_, "_NET_WM_STATE_FULLSCREEN", False));
+    press(key);
+    bool asked = false;
+    eventually([&] {
+        while (XPending(display_) > 0) {
+            XEvent event{};
+            XNextEvent(display_, &event);
+            if (event.type != ClientMessage || event.xclient.message_type != state) continue;
+            const auto& data = event.xclient.data.l;
+            asked |= data[0] == long(full) && data[1] == fullScreen;
+        }
+        return asked;
+    });
+    XSelectInput(display_, DefaultRootWindow(display_), NoEventMask);
+    XSync(display_, True);
+    return asked;
+}
 
 void Screen::close() {
     const auto quit = static_cast<long>(XInternAtom(display_, "WM_DELETE_WINDOW", False));

@@ -56,9 +56,13 @@ class Screen {
     Image image();
     Rgb pixel(int x, int y) { return image().at(x, y); }
 
+    /// What the settings of a desktop say of the size of text.
+    void wantDotsPerInch(int dots);
+
     void moveMouse(int x, int y);
     void click(int x, int y);
-    void drag(int fromX, int fromY, int toX, int toY);
+    /// A hand takes some time from event to event; panels look at the mouse once a picture.
+    void drag(int fromX, int fromY, int toX, int toY, Process::Seconds pause = Process::Seconds(0));
     /// Notches of the wheel, positive for forwards.
     void wheel(int x, int y, int notches);
     /// By the names of X: "space", "period", "1", "Escape".
@@ -66,6 +70,9 @@ class Screen {
     /// Gives the window the keyboard; without a window manager nobody else does.
     void focus();
     void resize(int width, int height);
+    /// Presses a key, and says whether the window then asks its manager for all of the screen, or
+    /// for its own size again.
+    bool asksForFullScreen(const std::string& key, bool full);
     /// What the close button does.
     void close();
     /// Drags a file over the window and drops it there (the protocol XDND).

@@ -20,5 +20,16 @@ TEST(Text, NamesSpeeds) {
     EXPECT_EQ(speedLabel(0), "as fast as it can");
 }
 
+TEST(Text, CompactNumbersHaveThreeDigits) {
+    EXPECT_EQ(compact(0), "0");
+    EXPECT_EQ(compact(0.012345), "0.0123");
+    EXPECT_EQ(compact(12.345), "12.3");
+    EXPECT_EQ(compact(999.4), "999");
+    EXPECT_EQ(compact(999.6), "1,000");
+    EXPECT_EQ(compact(12345), "12,300");
+    EXPECT_EQ(compact(-1999999), "-2,000,000");
+    EXPECT_EQ(compact(1.5e15), "1.5e+15");
+}
+
 }  // namespace
 }  // namespace quadrille::app

@@ -44,11 +44,11 @@ bool WindowTest::shows(int x, int y, const Rgb& color) {
 
 WindowTest::Place WindowTest::placeOf(double worldWidth, double worldHeight, double x, double y) {
     constexpr double margin = 1.02;
-    const double viewWidth = width - panelWidth;
+    const double viewWidth = width - panelWidth, viewHeight = height - timelineHeight;
     const double zoom =
-        std::min(viewWidth / (worldWidth * margin), height / (worldHeight * margin));
+        std::min(viewWidth / (worldWidth * margin), viewHeight / (worldHeight * margin));
     return {int(std::floor(panelWidth + viewWidth / 2 + x * zoom)),
-            int(std::floor(height / 2.0 - y * zoom))};
+            int(std::floor(viewHeight / 2 - y * zoom))};
 }
 
 ProcessResult WindowTest::close() {

@@ -19,7 +19,7 @@ constexpr Rgb fillOf(const Rgb& color) {
 class WindowTest : public ProgramTest {
   protected:
     static constexpr int width = 1280, height = 720;
-    static constexpr int panelWidth = 300;
+    static constexpr int panelWidth = 320, timelineHeight = 34;
     static constexpr Rgb background{13, 16, 20};
 
     /// Starts the screen; the test is skipped where there is no Xvfb.

@@ -1,9 +1,11 @@
 #include "app/window/body_colors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/window/colors.hpp"
+#include "app/window/nice_numbers.hpp"
 
 namespace quadrille::app {
 
@@ -11,24 +13,18 @@ namespace {
 
 constexpr Color movingColor{0x4f, 0x9d, 0xdb}, staticColor{0x26, 0x30, 0x3b};
 
-template <class Real>
-void colorBySpeed(const BodyView<Real>& bodies, std::span<Color> colors) {
-    const auto& m = bodies.moving;
-    double most = 0;
-    for (std::size_t i = 0; i < m.size(); ++i) {
-        most = std::max(most, double(m.vx[i] * m.vx[i] + m.vy[i] * m.vy[i]));
-    }
-    if (!(most > 0)) return;
-    // A table, since the ramp is dearer than the look-up.
-    std::array<Color, 256> ramp;
-    for (std::size_t k = 0; k < ramp.size(); ++k) ramp[k] = speedColor(double(k) / 255);
-    const double scale = 255 / std::sqrt(most);
-    for (std::size_t i = 0; i < m.size(); ++i) {
-        const double speed = std::sqrt(double(m.vx[i] * m.vx[i] + m.vy[i] * m.vy[i]));
-        Color& color = colors[bodies.fixed.size() + i];
-        const std::uint8_t alpha = color.a;
-        color = ramp[std::min<std::size_t>(static_cast<std::size_t>(speed * scale), 255)];
-        color.a = alpha;
+/// The end of the scale needs no more values than this to be found.
+constexpr std::size_t mostSampled = 4096;
+
+/// The share of the bodies whose value the scale shows.
+double shareShown(ColorBy by) {
+    switch (by) {
+        case ColorBy::Energy:
+            return 0.99;
+        case ColorBy::SinceHit:
+            return 0.95;
+        default:
+            return 1;
     }
 }
 
@@ -77,14 +73,64 @@ void BodyColors::readEntities(const World& world) {
     });
 }
 
-std::span<const Color> BodyColors::update(const Simulation& simulation, ColorBy colorBy) {
+/// What is not finite has the colour of the top, and no part in finding it.
+template <class Real, class ValueOf>
+void BodyColors::colorByScale(const BodyView<Real>& bodies, Color (*ramp)(double),
+                              ValueOf&& valueOf) {
+    const std::size_t count = bodies.moving.size();
+    values_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) values_[i] = static_cast<float>(valueOf(i));
+    const double share = shareShown(scale_.by);
+    const std::size_t stride = share < 1 ? count / mostSampled + 1 : 1;
+    sample_.clear();
+    for (std::size_t i = 0; i < count; i += stride) {
+        if (std::isfinite(values_[i])) sample_.push_back(values_[i]);
+    }
+    if (share < 1) {
+        scale_.top = niceCeiling(percentile(sample_, share));
+    } else if (!sample_.empty()) {
+        scale_.top = double(*std::max_element(sample_.begin(), sample_.end()));
+    }
+    if (!(scale_.top > 0) && scale_.by != ColorBy::SinceHit) return;
+    // A table, since the ramp is dearer than the look-up.
+    std::array<Color, 256> table;
+    for (std::size_t k = 0; k < table.size(); ++k) table[k] = ramp(double(k) / 255);
+    const float steps = scale_.top > 0 ? float(255 / scale_.top) : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool beyond = double(values_[i]) > scale_.top;
+        scale_.beyond |= beyond;
+        Color& color = colors_[bodies.fixed.size() + i];
+        const std::uint8_t alpha = color.a;
+        color = beyond ? table.back() : table[static_cast<std::size_t>(values_[i] * steps)];
+        color.a = alpha;
+    }
+}
+
+std::span<const Color> BodyColors::update(const Simulation& simulation, ColorBy colorBy,
+                                          const HitTimes& hits) {
+    scale_ = {.by = colorBy};
     if (colorBy == ColorBy::Entity) return entities_;
     colors_ = entities_;
+    const double now = simulation.time();
     simulation.world().visitBodies([&](const auto& bodies) {
-        if (colorBy == ColorBy::Speed) {
-            colorBySpeed(bodies, colors_);
-        } else {
-            colorByCell(simulation.cells(), bodies.fixed.size(), colors_);
+        const auto& m = bodies.moving;
+        const auto squaredSpeed = [&](std::size_t i) {
+            return double(m.vx[i] * m.vx[i] + m.vy[i] * m.vy[i]);
+        };
+        switch (colorBy) {
+            case ColorBy::Speed:
+                return colorByScale(bodies, speedColor,
+                                    [&](std::size_t i) { return std::sqrt(squaredSpeed(i)); });
+            case ColorBy::Energy:
+                return colorByScale(bodies, energyColor, [&](std::size_t i) {
+                    return double(m.mass[i]) * squaredSpeed(i) / 2;
+                });
+            case ColorBy::SinceHit:
+                return colorByScale(bodies, sinceHitColor, [&](std::size_t i) {
+                    return std::max(now - hits.last(m.entity[i]), 0.0);
+                });
+            default:
+                return colorByCell(simulation.cells(), bodies.fixed.size(), colors_);
         }
     });
     return colors_;

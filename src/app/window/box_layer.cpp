@@ -1,6 +1,7 @@
 #include "app/window/box_layer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <quadrille/error.hpp>
@@ -11,6 +12,8 @@ namespace {
 
 /// Boxes have an outline from so many pixels a side.
 constexpr double leastOutlined = 6;
+/// Up to so many pixels, which is before any part of an outline shows, boxes are drawn as points.
+constexpr double mostPoint = 4;
 
 // A pixel shows the part of it that the box covers, so boxes of a pixel or two move smoothly and
 // keep their size; a smaller one is spread over a pixel, as much fainter, but never beyond sight.
@@ -57,6 +60,42 @@ void main() {
     float outlined = clamp(2.0 * min(halfPixels.x, halfPixels.y) - 5.0, 0.0, 1.0);
     float shown = mix(mix(opacity, 1.0, outlined), 0.45 * opacity, inside * outlined);
     pixel = vec4(boxColor.rgb, boxColor.a * shown * covered.x * covered.y);
+}
+)";
+
+// The same for a box that is smaller than its outline would be, as a point, which costs a driver
+// less than a triangle.
+constexpr const char* pointVertices = R"(
+layout(location = 0) in float x;
+layout(location = 1) in float y;
+layout(location = 2) in vec2 halfSize;
+layout(location = 3) in vec4 color;
+uniform vec2 scale;
+uniform float pixels;
+flat out vec2 halfPixels;
+flat out vec4 boxColor;
+flat out float reach;  // of the point, pixels
+void main() {
+    vec2 size = 2.0 * halfSize * pixels;
+    vec2 share = min(size, vec2(1.0));
+    halfPixels = max(size, vec2(1.0)) / 2.0;
+    reach = max(halfPixels.x, halfPixels.y) + 0.5;
+    boxColor = vec4(color.rgb, color.a * max(share.x * share.y, 0.2));
+    gl_PointSize = 2.0 * reach;
+    gl_Position = color.a > 0.0 ? vec4(vec2(x, y) * scale, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+}
+)";
+constexpr const char* pointSource = R"(
+flat in vec2 halfPixels;
+flat in vec4 boxColor;
+flat in float reach;
+uniform float opacity;
+out vec4 pixel;
+void main() {
+    vec2 offset = (2.0 * gl_PointCoord - 1.0) * reach;
+    vec2 covered = min(offset + 0.5, halfPixels) - max(offset - 0.5, -halfPixels);
+    covered = clamp(covered, 0.0, 1.0);
+    pixel = vec4(boxColor.rgb, boxColor.a * opacity * covered.x * covered.y);
 }
 )";
 
@@ -126,17 +165,27 @@ BoxLayer::BoxLayer()
     : boxes_(fragmentSource),
       opacity_(boxes_.program.uniform("opacity")),
       outline_(boxes_.program.uniform("outline")),
+      points_(pointVertices, pointSource),
+      pointScale_(points_.uniform("scale")),
+      pointPixels_(points_.uniform("pixels")),
+      pointOpacity_(points_.uniform("opacity")),
       count_(countSource),
       mark_(markVertices, markSource) {
-    glBindVertexArray(array_.id());
-    glBindBuffer(GL_ARRAY_BUFFER, x_.id());
-    instanceAttribute(0, 1, GL_FLOAT, false);
-    glBindBuffer(GL_ARRAY_BUFFER, y_.id());
-    instanceAttribute(1, 1, GL_FLOAT, false);
-    glBindBuffer(GL_ARRAY_BUFFER, halfSize_.id());
-    instanceAttribute(2, 2, GL_FLOAT, false);
-    glBindBuffer(GL_ARRAY_BUFFER, color_.id());
-    instanceAttribute(3, 4, GL_UNSIGNED_BYTE, true);
+    std::array<GLfloat, 2> sizes{};
+    glGetFloatv(GL_POINT_SIZE_RANGE, sizes.data());
+    hasPoints_ = sizes[1] >= mostPoint + 1;  // half a pixel around the box
+    for (const bool instanced : {true, false}) {
+        glBindVertexArray(instanced ? array_.id() : pointArray_.id());
+        glBindBuffer(GL_ARRAY_BUFFER, x_.id());
+        instanceAttribute(0, 1, GL_FLOAT, false);
+        glBindBuffer(GL_ARRAY_BUFFER, y_.id());
+        instanceAttribute(1, 1, GL_FLOAT, false);
+        glBindBuffer(GL_ARRAY_BUFFER, halfSize_.id());
+        instanceAttribute(2, 2, GL_FLOAT, false);
+        glBindBuffer(GL_ARRAY_BUFFER, color_.id());
+        instanceAttribute(3, 4, GL_UNSIGNED_BYTE, true);
+        for (GLuint i = 0; i < 4 && !instanced; ++i) glVertexAttribDivisor(i, 0);
+    }
     glBindVertexArray(0);
 }
 
@@ -158,10 +207,12 @@ void BoxLayer::prepare(const World& world, const Viewport& viewport) {
         rowsChanged_ = bodies.revision != revision_;
         if (!rowsChanged_) return;
         revision_ = bodies.revision;
-        largestSide_ = 0;
+        largestSide_ = longestSide_ = 0;
         for (std::size_t i = 0; i < m.size(); ++i) {
             const double half = double(std::min(m.halfWidth[i], m.halfHeight[i]));
             largestSide_ = std::max(largestSide_, 2 * half);
+            const double longer = double(std::max(m.halfWidth[i], m.halfHeight[i]));
+            longestSide_ = std::max(longestSide_, 2 * longer);
         }
         stream<float>(halfSize_, 2 * bodies_, [&](float* out) {
             for (std::size_t i = 0; i < f.size(); ++i) {
@@ -187,9 +238,23 @@ void BoxLayer::draw(const Viewport& viewport, double opacity) const {
     glUniform1f(opacity_, float(opacity));
     glUniform1f(outline_, float(std::max(1.0, std::round(viewport.pixelRatio))));
     glBindVertexArray(array_.id());
-    drawBoxes(bodies_);
+    const bool small = hasPoints_ && longestSide_ * viewport.pixelsPerUnit() <= mostPoint;
+    drawBoxes(small ? fixed_ : bodies_);
+    if (small) drawPoints(viewport, opacity);
     if (largestSide_ * viewport.pixelsPerUnit() >= leastOutlined) markOverlaps(viewport);
     glBindVertexArray(0);
+}
+
+/// The moving boxes.
+void BoxLayer::drawPoints(const Viewport& viewport, double opacity) const {
+    const Vec2 clipScale = viewport.clipScale();
+    points_.use();
+    glUniform2f(pointScale_, float(clipScale.x()), float(clipScale.y()));
+    glUniform1f(pointPixels_, float(viewport.pixelsPerUnit()));
+    glUniform1f(pointOpacity_, float(opacity));
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(pointArray_.id());
+    glDrawArrays(GL_POINTS, static_cast<GLint>(fixed_), static_cast<GLsizei>(bodies_ - fixed_));
 }
 
 void BoxLayer::drawBoxes(std::size_t count) const {

@@ -13,7 +13,8 @@
 namespace quadrille::app {
 
 /// Draws the boxes of all bodies that have a RectangleRenderer, in one instanced draw call: static
-/// bodies first, so that they lie below, then moving ones in order of creation.
+/// bodies first, so that they lie below, then moving ones in order of creation. Where all that
+/// moves is small on the screen, it is drawn as points.
 ///
 /// Positions are streamed in every frame, relative to the camera's centre and as float: a scene far
 /// from the origin is drawn as finely as any. Sizes are sent again only where the rows changed.
@@ -45,16 +46,21 @@ class BoxLayer {
     };
 
     void drawBoxes(std::size_t count) const;
+    void drawPoints(const Viewport& viewport, double opacity) const;
     void markOverlaps(const Viewport& viewport) const;
 
     Program boxes_;
     GLint opacity_, outline_;
+    GlProgram points_;
+    GLint pointScale_, pointPixels_, pointOpacity_;
     Program count_;
     GlProgram mark_;
-    GlVertexArray array_;
+    GlVertexArray array_, pointArray_;
     GlBuffer x_, y_, halfSize_, color_;
+    bool hasPoints_ = false;  // large enough ones
     std::size_t bodies_ = 0, fixed_ = 0;
     double largestSide_ = 0;  // px, of what moves: the shorter side of the box with the longest
+    double longestSide_ = 0;  // px, of what moves
     std::uint64_t revision_ = ~std::uint64_t(0);
     bool rowsChanged_ = false;
 };

@@ -22,7 +22,7 @@ Color interpolate(const std::array<Color, count>& stops, double t) {
 
 }  // namespace
 
-// Stops of the maps "inferno" and "viridis" of matplotlib (public domain).
+// Stops of the maps "inferno", "viridis" and "plasma" of matplotlib (public domain).
 Color heatColor(double t) {
     static constexpr std::array<Color, 8> inferno = {{{31, 12, 72},
                                                       {74, 12, 107},
@@ -43,6 +43,27 @@ Color speedColor(double t) {
                                                       {144, 215, 67},
                                                       {253, 231, 37}}};
     return interpolate(viridis, t);
+}
+
+Color energyColor(double t) {
+    static constexpr std::array<Color, 6> ice = {{{52, 62, 120},
+                                                  {54, 98, 160},
+                                                  {62, 140, 178},
+                                                  {110, 184, 184},
+                                                  {184, 220, 190},
+                                                  {255, 252, 204}}};
+    return interpolate(ice, t);
+}
+
+Color sinceHitColor(double t) {
+    // Its dark end is lightened, so that bodies stay visible before the dark ground.
+    static constexpr std::array<Color, 6> plasma = {{{240, 249, 33},
+                                                     {253, 180, 47},
+                                                     {237, 121, 83},
+                                                     {204, 71, 120},
+                                                     {140, 52, 158},
+                                                     {82, 62, 140}}};
+    return interpolate(plasma, t);
 }
 
 Color cellColor(const CellCoordinates& cell) {

@@ -13,6 +13,12 @@ Color heatColor(double t);
 /// From blue over green to yellow, `t` from 0 to 1.
 Color speedColor(double t);
 
+/// From dark blue over teal to light yellow, `t` from 0 to 1.
+Color energyColor(double t);
+
+/// From light yellow, just hit, over red to a dim violet, `t` from 0 to 1.
+Color sinceHitColor(double t);
+
 /// One of many bright colours for a cell, the same as long as the cell exists.
 Color cellColor(const CellCoordinates& cell);
 

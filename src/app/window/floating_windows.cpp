@@ -4,6 +4,7 @@
 #include "app/window/keys.hpp"
 #include "app/window/panels.hpp"
 #include "app/window/text.hpp"
+#include "app/window/theme.hpp"
 
 namespace quadrille::app {
 
@@ -64,8 +65,13 @@ void showContacts(const Workbench& bench, Entity entity) {
         const char* axis = contact.axis == Axis::X   ? "x"
                            : contact.axis == Axis::Y ? "y"
                                                      : "x and y";
-        ImGui::Text("  with %s, axis %s%s", label(bench.simulation().world(), other).c_str(), axis,
-                    contact.collided ? "" : ", touching");
+        const std::string with =
+            "  " + label(bench.simulation().world(), other) + ", along " + axis;
+        const std::string what = contact.collided
+                                     ? formatted(": %.4g kg px/s at %.4g px/s",
+                                                 contact.impulse.norm(), contact.approach.norm())
+                                     : ", touching";
+        ImGui::TextUnformatted((with + what).c_str());
     }
     if (rows == 0) ImGui::TextUnformatted("  none");
     if (rows > mostRows) ImGui::Text("  and %d more", rows - mostRows);
@@ -130,7 +136,9 @@ void showMessage(const PanelContext& context) {
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
                          ImGuiWindowFlags_NoFocusOnAppearing)) {
         ImGui::PushTextWrapPos(float(rect.width - 60 * context.scale));
-        const ImVec4 color = message->isError ? ImVec4(1, 0.55f, 0.45f, 1) : ImVec4(1, 1, 1, 1);
+        const ImVec4 color = message->isError
+                                 ? ImGui::ColorConvertU32ToFloat4(packed(theme.errorText))
+                                 : ImGui::GetStyleColorVec4(ImGuiCol_Text);
         ImGui::TextColored(color, "%s", message->text.c_str());
         ImGui::PopTextWrapPos();
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <SDL.h>
+#include <string>
 
 #include "app/window/sdl_window.hpp"
 
@@ -9,7 +10,8 @@ namespace quadrille::app {
 /// Dear ImGui on an SDL window: one frame of panels after the other.
 class Gui {
   public:
-    explicit Gui(SdlWindow& window);
+    /// `scale` is what `scale()` says, until it is changed.
+    Gui(SdlWindow& window, double scale);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
@@ -19,7 +21,10 @@ class Gui {
     bool wantsMouse() const;
     bool wantsKeyboard() const;
 
-    /// Size of text and panels, 1 for 13 points.
+    /// Closes the innermost list or popup that is open; whether there was one.
+    bool closePopup();
+
+    /// Size of text and panels: 1 for text that is 15 points high.
     double scale() const { return scale_; }
     /// The next larger or smaller size.
     void changeScale(bool larger);
@@ -33,7 +38,8 @@ class Gui {
     void applyScale();
 
     SdlWindow& window_;
-    double scale_ = 1;
+    double scale_;
+    std::string font_;       // a file, or empty for the built-in one
     double fontPixels_ = 0;  // of the font texture
 };
 

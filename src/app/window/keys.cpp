@@ -20,12 +20,20 @@ constexpr KeyCommand commands[] = {
     {SDLK_SPACE, false, "Space", "pause, go on", [](B b, V) { b.togglePause(); }},
     {SDLK_PERIOD, false, ".  N", "one step", [](B b, V) { b.singleStep(); }, true},
     {SDLK_n, false, nullptr, "", [](B b, V) { b.singleStep(); }, true},
+    {SDLK_COMMA, false, ",", "one step back", [](B b, V) { b.stepBack(); }, true},
+    {SDLK_b, false, "B", "backwards, forwards again", [](B b, V) { b.playBackwards(); }},
+    {SDLK_END, false, "End", "to the newest step", [](B b, V) { b.toNewest(); }},
     {SDLK_PLUS, false, "+  -", "faster, slower", [](B b, V) { b.changeSpeed(true); }},
     {SDLK_EQUALS, false, nullptr, "", [](B b, V) { b.changeSpeed(true); }},
     {SDLK_KP_PLUS, false, nullptr, "", [](B b, V) { b.changeSpeed(true); }},
     {SDLK_MINUS, false, nullptr, "", [](B b, V) { b.changeSpeed(false); }},
     {SDLK_KP_MINUS, false, nullptr, "", [](B b, V) { b.changeSpeed(false); }},
     {SDLK_r, false, "R", "reset: start anew", [](B b, V) { b.reset(); }},
+    {SDLK_RIGHTBRACKET, false, "[  ]", "last, next scene", [](B b, V) { b.openNext(1); }},
+    {SDLK_LEFTBRACKET, false, nullptr, "", [](B b, V) { b.openNext(-1); }},
+    // Where a keyboard has no brackets.
+    {SDLK_PAGEDOWN, true, "Ctrl PgUp PgDn", "the same", [](B b, V) { b.openNext(1); }},
+    {SDLK_PAGEUP, true, nullptr, "", [](B b, V) { b.openNext(-1); }},
     {SDLK_1, false, "1 2 3 4", "brute force, static grid, quadtree,\nsemi-static quadtree",
      choose<BruteForce>},
     {SDLK_2, false, nullptr, "", choose<StaticGrid>},
@@ -41,15 +49,27 @@ constexpr KeyCommand commands[] = {
          v.overlays.contacts = !v.overlays.contacts;
          b.watchContacts(v.overlays.contacts);
      }},
-    {SDLK_v, false, "V", "colour by entity, speed, cell",
-     [](B, V v) { v.colorBy = static_cast<ColorBy>((static_cast<int>(v.colorBy) + 1) % 3); }},
+    {SDLK_a, false, "A", "arrows: velocities",
+     [](B, V v) { v.overlays.arrows = !v.overlays.arrows; }},
+    {SDLK_w, false, "W", "trails of the selected, or of all",
+     [](B b, V v) {
+         v.overlays.trails = !v.overlays.trails;
+         b.watchTrails(v.overlays.trails);
+     }},
+    {SDLK_v, false, "V", "colour by entity, speed, energy,\ntime since the last hit, cell",
+     [](B, V v) {
+         const auto next = (static_cast<std::size_t>(v.colorBy) + 1) % colorings().size();
+         v.colorBy = static_cast<ColorBy>(next);
+     }},
     {SDLK_f, false, "F", "follow the selected entity", [](B b, V) { b.toggleFollow(); }},
-    {SDLK_ESCAPE, false, "Esc", "close help, then select nothing",
+    {SDLK_ESCAPE, false, "Esc", "close the innermost: list, help,\nselection, full screen",
      [](B b, V v) {
          if (v.help) {
              v.help = false;
-         } else {
+         } else if (b.selected()) {
              b.select(std::nullopt);
+         } else {
+             v.fullScreen = false;
          }
      }},
     {SDLK_HOME, false, "Home  0", "show all", [](B, V v) { v.fit = true; }},
@@ -82,6 +102,7 @@ constexpr KeyCommand commands[] = {
     {SDLK_KP_PLUS, true, nullptr, "", [](B, V v) { ++v.scaleSteps; }},
     {SDLK_MINUS, true, nullptr, "", [](B, V v) { --v.scaleSteps; }},
     {SDLK_KP_MINUS, true, nullptr, "", [](B, V v) { --v.scaleSteps; }},
+    {SDLK_F11, false, "F11", "full screen", [](B, V v) { v.fullScreen = !v.fullScreen; }},
     {SDLK_F12, false, "F12  P", "screenshot", [](B, V v) { v.screenshot = true; }},
     {SDLK_p, false, nullptr, "", [](B, V v) { v.screenshot = true; }},
     {SDLK_F1, false, "F1  H", "this help", [](B, V v) { v.help = !v.help; }},

@@ -6,6 +6,9 @@ namespace {
 
 constexpr double interval = 0.25;  // s
 
+/// Looking for the deepest overlap may take this share of the time.
+constexpr int overlapShare = 50;
+
 }  // namespace
 
 void Measures::update(const Workbench& bench) {
@@ -19,6 +22,14 @@ void Measures::update(const Workbench& bench) {
     if (elapsed >= interval || otherRun) {
         stepsPerSecond = otherRun ? 0 : double(steps - lastSteps_) / elapsed;
         picturesPerSecond = double(pictures_ - lastPictures_) / elapsed;
+        const std::uint64_t collisions = bench.session().statistics().collisions();
+        const double time = bench.simulation().time();
+        if (otherRun || time != lastTime_) {
+            collisionsPerSecond =
+                otherRun ? 0 : double(collisions - lastCollisions_) / (time - lastTime_);
+        }
+        lastCollisions_ = collisions;
+        lastTime_ = time;
         last_ = now;
         lastPictures_ = pictures_;
         lastSteps_ = steps;
@@ -32,6 +43,17 @@ void Measures::update(const Workbench& bench) {
     histogram = loadHistogram(simulation.cells());
     energyDrift = relativeDrift(bench.session().start().total,
                                 totalEnergy(simulation.world(), simulation.config().step.gravity));
+    escaped = quadrille::escaped(simulation.world());
+    updateOverlap(simulation.world(), otherRun);
+}
+
+void Measures::updateOverlap(const World& world, bool otherRun) {
+    const auto before = Clock::now();
+    if (!otherRun && before < overlapDue_) return;
+    deepestOverlap = overlap(world).max;
+    overlapKnown = true;
+    const auto after = Clock::now();
+    overlapDue_ = after + overlapShare * (after - before);
 }
 
 }  // namespace quadrille::app

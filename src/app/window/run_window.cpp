@@ -5,20 +5,29 @@
 #include <chrono>
 #include <cmath>
 #include <epoxy/gl.h>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/interrupt.hpp"
 #include "app/window/body_colors.hpp"
 #include "app/window/box_layer.hpp"
 #include "app/window/cell_layer.hpp"
+#include "app/window/comparison_layer.hpp"
+#include "app/window/comparison_view.hpp"
 #include "app/window/gui.hpp"
 #include "app/window/input.hpp"
+#include "app/window/overlay.hpp"
 #include "app/window/panels.hpp"
+#include "app/window/recording.hpp"
 #include "app/window/screenshot.hpp"
 #include "app/window/sdl_window.hpp"
 #include "app/window/text.hpp"
+#include "app/window/theme.hpp"
+#include "app/window/trail_lines.hpp"
 
 namespace quadrille::app {
 
@@ -55,9 +64,15 @@ class WindowRun {
     void draw(const Viewport& viewport) const;
     void takeScreenshots(bool last);
     void finishPhase(ShowPhase phase);
-    void recordPhases();
+    void countPicture();
+    void recordPhases(double pictureSeconds);
     void updateTitle();
+    void setViewport(const Viewport& viewport) const;
     ScreenRect rect() const { return worldRect(view_, gui_.scale(), size_.width, size_.height); }
+    /// Where worlds are shown.
+    std::vector<ScreenRect> views() const;
+    /// Of the second run.
+    Viewport secondViewport() const { return {view_.camera, views()[1], size_.pixelRatio()}; }
 
     const Options& options_;
     Workbench bench_;  // first, so that a bad scene opens no window
@@ -67,15 +82,21 @@ class WindowRun {
     BoxLayer boxes_;
     CellLayer cells_;
     BodyColors colors_;
+    std::optional<ComparisonLayer> comparison_;
+    std::optional<Recording> film_;
     Input input_;
     std::vector<SDL_Event> events_;  // of this picture
     Measures measures_;
     PhaseHistory history_;
+    ErrorHistory errors_;
 
     SdlWindow::Size size_;
+    bool fullScreen_ = false;
     bool vsync_ = false, hasVsync_ = false;  // what was asked for, and what the driver does
     Clock::time_point pictureStart_, phaseStart_;
-    std::array<double, showPhaseCount> phases_{};                       // s, of this picture
+    std::array<double, showPhaseCount> phases_{};  // s, of this picture
+    double waited_ = 0;                            // s, after this picture
+    bool shownOne_ = false;
     std::uint64_t runVersion_ = 0, cellsVersion_ = 0, stepsShown_ = 0;  // of what the layers hold
     int idlePictures_ = 0;                                              // since the last event
     ColorBy colorBy_ = ColorBy::Entity;
@@ -85,16 +106,23 @@ class WindowRun {
 WindowRun::WindowRun(const Options& options)
     : options_(options),
       bench_(options),
-      window_(options.window.width, options.window.height, options.window.offscreen),
-      gui_(window_),
+      window_(options.window.size, options.window.scale, options.window.offscreen),
+      gui_(window_, window_.scale()),
       size_(window_.size()) {
     view_.overlays = options.window.overlays;
     view_.colorBy = options.window.colorBy;
     view_.vsync = options.window.vsync;
     view_.panels = options.window.panels;
+    if (options.beside) comparison_.emplace();
+    if (!options.window.video.empty()) {
+        film_.emplace(options, size_);
+        view_.vsync = false;  // the film sets the pace
+    }
     vsync_ = view_.vsync;
     hasVsync_ = window_.setVsync(vsync_);
     bench_.watchContacts(view_.overlays.contacts);
+    bench_.watchTrails(view_.overlays.trails);
+    bench_.watchHits(view_.colorBy == ColorBy::SinceHit);
     bench_.session().statistics().shown = Shown{
         .width = size_.pixelWidth, .height = size_.pixelHeight, .renderer = window_.renderer()};
 }
@@ -105,43 +133,54 @@ int WindowRun::loop() {
     while (true) {
         const double elapsed = secondsSince(pictureStart_);
         pictureStart_ = Clock::now();
-        phases_ = {};
+        recordPhases(elapsed);
         takeEvents();
         beginPanels();
-        for (const SDL_Event& event : events_) input_.handle(event, rect(), gui_, bench_, view_);
-        bench_.advance(elapsed);
+        view_.timeline = bench_.keepsPast();
+        if (comparison_) {
+            view_.compared = bench_.simulation().world().config().size;
+            view_.colorBy = ColorBy::Entity;  // colours say which bodies are wrong
+        }
+        for (const SDL_Event& event : events_) input_.handle(event, views(), gui_, bench_, view_);
+        bench_.advance(film_ ? film_->secondsSinceLast() : elapsed);
         const RunSession& session = bench_.session();
         const bool last =
             view_.quit || interruptedBy() != 0 || session.allFramesDone() || session.timeIsUp();
         showPicture(last);
         if (last) break;
-        wait();
+        if (!film_) wait();
     }
+    if (film_) film_->commit();
     return bench_.session().finish();
 }
 
 void WindowRun::wait() {
     if (bench_.speed() == 0 && !bench_.paused()) return;
+    const auto before = Clock::now();
     const double interval = hasVsync_ ? withVsync : withoutVsync;
     std::this_thread::sleep_until(pictureStart_ + std::chrono::duration_cast<Clock::duration>(
                                                       std::chrono::duration<double>(interval)));
     // Nothing moves, and the panels have settled: rest until the user does something.
     const bool resting = bench_.paused() && ++idlePictures_ > settlingPictures;
     if (resting) SDL_WaitEventTimeout(nullptr, restMilliseconds);
+    waited_ = secondsSince(before);
 }
 
 /// The panels say whose the mouse is, for one place of it in a picture: what happens after it has
-/// moved from the place of a click waits for the next.
+/// moved from the place of a click waits for the next. So does the end of a key while they edit a
+/// text, since they look at which keys are down.
 void WindowRun::takeEvents() {
     events_.clear();
     SDL_PumpEvents();
-    bool used = false;
+    bool used = false, typed = false;
     SDL_Event event;
     while (SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
         if (used && event.type == SDL_MOUSEMOTION) break;
+        if (typed && event.type == SDL_KEYUP) break;
         if (SDL_PollEvent(&event) == 0) break;
         used |= event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP ||
                 event.type == SDL_MOUSEWHEEL;
+        typed |= event.type == SDL_KEYDOWN && gui_.wantsKeyboard();
         events_.push_back(event);
         gui_.processEvent(event);
     }
@@ -158,6 +197,10 @@ void WindowRun::beginPanels() {
         vsync_ = view_.vsync;
         hasVsync_ = window_.setVsync(vsync_);
         if (vsync_ && !hasVsync_) bench_.say("this driver has no vsync");
+    }
+    if (view_.fullScreen != fullScreen_) {
+        fullScreen_ = view_.fullScreen;
+        if (!window_.setFullScreen(fullScreen_)) bench_.say("this screen has no full screen");
     }
     gui_.beginFrame();
     finishPhase(ShowPhase::Gui);
@@ -188,28 +231,42 @@ void WindowRun::finishPhase(ShowPhase phase) {
     phaseStart_ = now;
 }
 
+std::vector<ScreenRect> WindowRun::views() const {
+    if (!comparison_) return {rect()};
+    const auto both = comparisonLayout(view_, gui_.scale(), size_.width, size_.height).views;
+    return {both.begin(), both.end()};
+}
+
 void WindowRun::showPicture(bool last) {
+    errors_.update(bench_);
     phaseStart_ = Clock::now();
     moveCamera();
     measures_.update(bench_);
-    showPanels({bench_, view_, measures_, history_, gui_.scale(), size_.width, size_.height});
-    gui_.endFrame();
+    const PanelContext context{bench_,  view_,        measures_,   history_,
+                               errors_, gui_.scale(), size_.width, size_.height};
+    showPanels(context);
     finishPhase(ShowPhase::Gui);
 
     const Viewport viewport{view_.camera, rect(), size_.pixelRatio()};
     prepare(viewport);
     finishPhase(ShowPhase::Prepare);
+    showTrails(context);
+    showOverlay(context, colors_.scale());
+    if (comparison_) showComparison(context);
+    gui_.endFrame();
+    finishPhase(ShowPhase::Gui);
     draw(viewport);
     finishPhase(ShowPhase::Draw);
     glViewport(0, 0, size_.pixelWidth, size_.pixelHeight);
     gui_.draw();
     finishPhase(ShowPhase::Gui);
     takeScreenshots(last);
+    if (film_ && !bench_.paused()) film_->add(bench_.session(), size_);
     updateTitle();
     phaseStart_ = Clock::now();
     window_.present();
     finishPhase(ShowPhase::Present);
-    recordPhases();
+    countPicture();
 }
 
 void WindowRun::prepare(const Viewport& viewport) {
@@ -220,11 +277,15 @@ void WindowRun::prepare(const Viewport& viewport) {
     const bool otherSteps = stepsShown_ != simulation.stepsDone();
     const bool otherRows = boxes_.rowsChanged() || otherRun;
     if (otherRows) colors_.readEntities(simulation.world());
-    const bool otherColors = colorBy_ != view_.colorBy ||
-                             (view_.colorBy == ColorBy::Speed && otherSteps) ||
+    const bool ofMotion = view_.colorBy != ColorBy::Entity && view_.colorBy != ColorBy::Cell;
+    const bool otherColors = colorBy_ != view_.colorBy || (ofMotion && otherSteps) ||
                              (view_.colorBy == ColorBy::Cell && otherCells);
-    if (otherRows || otherColors) boxes_.setColors(colors_.update(simulation, view_.colorBy));
+    bench_.watchHits(view_.colorBy == ColorBy::SinceHit);
+    if (otherRows || otherColors) {
+        boxes_.setColors(colors_.update(simulation, view_.colorBy, bench_.hits()));
+    }
     if (otherCells) cells_.prepare(simulation.cells());
+    if (comparison_) comparison_->prepare(bench_, secondViewport(), boxes_);
     runVersion_ = bench_.runVersion();
     cellsVersion_ = bench_.cellsVersion();
     stepsShown_ = simulation.stepsDone();
@@ -233,18 +294,29 @@ void WindowRun::prepare(const Viewport& viewport) {
 
 void WindowRun::draw(const Viewport& viewport) const {
     glDisable(GL_SCISSOR_TEST);
-    glClearColor(0.051f, 0.063f, 0.078f, 1);
+    const Color& ground = theme.ground;
+    glClearColor(ground.r / 255.0f, ground.g / 255.0f, ground.b / 255.0f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    const double ratio = viewport.pixelRatio;
-    const auto pixels = [&](double points) {
-        return static_cast<GLint>(std::lround(points * ratio));
-    };
-    glViewport(pixels(viewport.view.x), 0, pixels(viewport.view.width), size_.pixelHeight);
+    setViewport(viewport);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     cells_.draw(viewport, view_.overlays);
     // Where cells are crowded, their bodies would hide how crowded.
-    boxes_.draw(viewport, view_.overlays.heatMap ? 0.5 : 1);
+    const double opacity = view_.overlays.heatMap ? 0.5 : 1;
+    boxes_.draw(viewport, opacity);
+    if (!comparison_) return;
+    setViewport(secondViewport());
+    comparison_->draw(secondViewport(), view_.overlays, opacity);
+}
+
+void WindowRun::setViewport(const Viewport& viewport) const {
+    const ScreenRect& view = viewport.view;
+    const auto pixels = [&](double points) {
+        return static_cast<GLint>(std::lround(points * viewport.pixelRatio));
+    };
+    // OpenGL counts from below.
+    glViewport(pixels(view.x), size_.pixelHeight - pixels(view.y + view.height), pixels(view.width),
+               pixels(view.height));
 }
 
 void WindowRun::takeScreenshots(bool last) {
@@ -264,19 +336,31 @@ void WindowRun::takeScreenshots(bool last) {
     }
 }
 
-void WindowRun::recordPhases() {
+void WindowRun::countPicture() {
     Shown& shown = *bench_.session().statistics().shown;
     shown.width = size_.pixelWidth;
     shown.height = size_.pixelHeight;
     ++shown.pictures;
+    for (std::size_t i = 0; i < showPhaseCount; ++i) shown.seconds[i] += phases_[i];
+}
+
+/// Of the picture before, which has ended with the wait for this one.
+void WindowRun::recordPhases(double pictureSeconds) {
     PhaseHistory::Row row{};
     const auto steps = bench_.takePhases();
     for (std::size_t i = 0; i < phaseCount; ++i) row[i] = static_cast<float>(1e3 * steps[i]);
     for (std::size_t i = 0; i < showPhaseCount; ++i) {
-        shown.seconds[i] += phases_[i];
         row[phaseCount + i] = static_cast<float>(1e3 * phases_[i]);
     }
-    history_.add(row);
+    row[PhaseHistory::Error] =
+        static_cast<float>(1e3 * (bench_.takeErrorSeconds() + errors_.takeSeconds()));
+    row[PhaseHistory::Wait] = static_cast<float>(1e3 * waited_);
+    const float known = std::accumulate(row.begin(), row.end(), 0.0f);
+    row[PhaseHistory::Unaccounted] =
+        std::max(static_cast<float>(1e3 * pictureSeconds) - known, 0.0f);
+    if (std::exchange(shownOne_, true)) history_.add(row);
+    phases_ = {};
+    waited_ = 0;
 }
 
 /// "balanced, step 120, paused", a few times a second while it runs.

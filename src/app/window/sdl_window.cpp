@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <epoxy/gl.h>
 #include <string_view>
 
 #include <quadrille/error.hpp>
+
+#include "app/window/desktop_resolution.hpp"
 
 namespace quadrille::app {
 
@@ -32,6 +35,26 @@ void requireScreen() {
          "only SDL's driver '" + driver + "' can run, which shows nothing" + asked);
 }
 
+/// Where a point of SDL is a pixel of the screen, as on X11, the desktop says by "Xft.dpi" how
+/// large text is to be; elsewhere a point is as large as it should be. A step of a quarter is as
+/// fine as text needs.
+double displayScale() {
+    const char* const driver = SDL_GetCurrentVideoDriver();
+    if (driver == nullptr || std::string_view(driver) != "x11") return 1;
+    return std::clamp(std::floor(desktopDotsPerInch() / 96 * 4 + 0.1) / 4, 1.0, 3.0);
+}
+
+/// What a window has that nobody asked to be larger or smaller: no more than the display has room
+/// for.
+WindowSize usualSize(double scale, bool offscreen) {
+    WindowSize size{int(std::lround(1280 * scale)), int(std::lround(720 * scale))};
+    SDL_Rect room{};
+    if (!offscreen && SDL_GetDisplayUsableBounds(0, &room) == 0) {
+        size = {std::min(size.width, room.w), std::min(size.height, room.h)};
+    }
+    return size;
+}
+
 }  // namespace
 
 SdlWindow::Library::Library(bool offscreen) {
@@ -54,8 +77,9 @@ SdlWindow::Library::Library(bool offscreen) {
     if (!offscreen) requireScreen();
 }
 
-SdlWindow::SdlWindow(int width, int height, bool offscreen)
-    : library_(offscreen), offscreen_(offscreen) {
+SdlWindow::SdlWindow(std::optional<WindowSize> asked, std::optional<double> scale, bool offscreen)
+    : library_(offscreen), offscreen_(offscreen), scale_(scale ? *scale : displayScale()) {
+    const WindowSize size = asked ? *asked : usualSize(scale_, offscreen);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
@@ -64,7 +88,7 @@ SdlWindow::SdlWindow(int width, int height, bool offscreen)
     SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
     SDL_GL_SetAttribute(SDL_GL_STENCIL_SIZE, 8);  // counts the boxes over a pixel
     window_.reset(SDL_CreateWindow(
-        "collisionStress", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
+        "collisionStress", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width, size.height,
         SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI));
     if (!window_) fail("a window with OpenGL cannot be opened", SDL_GetError());
     context_.reset(SDL_GL_CreateContext(window_.get()));
@@ -88,6 +112,10 @@ bool SdlWindow::setVsync(bool wanted) {
     if (offscreen_) return false;
     SDL_GL_SetSwapInterval(wanted ? 1 : 0);
     return SDL_GL_GetSwapInterval() != 0;
+}
+
+bool SdlWindow::setFullScreen(bool wanted) {
+    return SDL_SetWindowFullscreen(window_.get(), wanted ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0) == 0;
 }
 
 void SdlWindow::present() {

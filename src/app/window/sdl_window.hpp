@@ -2,8 +2,11 @@
 
 #include <SDL.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
+
+#include "app/window_options.hpp"
 
 namespace quadrille::app {
 
@@ -16,18 +19,23 @@ class SdlWindow {
         double pixelRatio() const { return double(pixelWidth) / double(width); }
     };
 
-    /// `offscreen` draws the same pictures and shows them nowhere. Throws Error, with a hint at
+    /// `offscreen` draws the same pictures and shows them nowhere. Without a `scale`, that of the
+    /// display is taken; without a size, 1280 x 720 of its units. Throws Error, with a hint at
     /// --headless, where there is no OpenGL 3.3 or, unless offscreen, no display.
-    SdlWindow(int width, int height, bool offscreen);
+    SdlWindow(std::optional<WindowSize> size, std::optional<double> scale, bool offscreen);
 
     SDL_Window* handle() const { return window_.get(); }
     SDL_GLContext context() const { return context_.get(); }
     Size size() const;
+    /// How large text is to be, 1 where the desktop wants it as usual.
+    double scale() const { return scale_; }
     /// The driver's name for what draws.
     const std::string& renderer() const { return renderer_; }
 
     /// Asks that pictures wait for the screen, or do not; says what the driver really does.
     bool setVsync(bool wanted);
+    /// The whole screen, or a window again; whether it could be done.
+    bool setFullScreen(bool wanted);
     void setTitle(const std::string& title);
     void present();
 
@@ -45,6 +53,7 @@ class SdlWindow {
 
     Library library_;
     bool offscreen_;
+    double scale_ = 1;
     std::unique_ptr<SDL_Window, DestroyWindow> window_;
     std::unique_ptr<std::remove_pointer_t<SDL_GLContext>, DeleteContext> context_;
     std::string renderer_, title_;

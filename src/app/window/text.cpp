@@ -1,6 +1,7 @@
 #include "app/window/text.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
@@ -22,6 +23,14 @@ std::string grouped(std::uint64_t number) {
         digits.insert(static_cast<std::size_t>(i), 1, ',');
     }
     return digits;
+}
+
+std::string compact(double number) {
+    const double size = std::abs(number);
+    if (!(size >= 999.5 && size < 1e12)) return formatted("%.3g", number);
+    const double unit = std::pow(10, std::floor(std::log10(size)) - 2);
+    const auto rounded = static_cast<std::uint64_t>(std::llround(size / unit) * std::llround(unit));
+    return (number < 0 ? "-" : "") + grouped(rounded);
 }
 
 std::string speedLabel(double speed) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "app/window/camera.hpp"
 #include "app/window_options.hpp"
 
@@ -13,6 +15,11 @@ struct ViewState {
     bool panels = true;
     bool help = false;
     bool vsync = true;
+    bool fullScreen = false;
+
+    bool timeline = false;  ///< there is one, below the world
+    /// Where two runs are compared, which share the view: the size of their world, px.
+    std::optional<Vec2> compared;
 
     bool fit = true;  ///< show all of the world, until the user moves the camera
 
