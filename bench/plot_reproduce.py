@@ -37,6 +37,14 @@ def save(figure, path):
     plt.close(figure)
 
 
+def legend_beside(figure, axes, published):
+    """Schemes by colour, and what the report has by a grey cross, to the right of all panels."""
+    axes.plot([], [], color="#888888", marker="x", linewidth=1, label=published)
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.91, 0.5), frameon=False,
+                  fontsize=9)
+
+
 def speedup(folder):
     """Milliseconds a frame over the bodies, ours beside the report's program."""
     table = [r for r in rows(folder / "speedup.csv") if r["scene"] == "balanced"]
@@ -58,10 +66,7 @@ def speedup(folder):
                           linestyle="-" if resolver == "cuda" else "--", marker="x", markersize=4)
         style(axes, "bodies", "ms a frame" if law == "baseline" else "",
               f"balanced scene, law {law}")
-    panels[0].plot([], [], color="#888888", marker="x", linewidth=1, label="the report's program")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.91, 0.5), frameon=False,
-                  fontsize=9)
+    legend_beside(figure, panels[0], "the report's program")
     save(figure, folder / "speedup.png")
 
 
@@ -82,10 +87,7 @@ def figure5(folder):
                               markersize=4, **look)
         style(axes, "bodies", "times faster than the sequential grid" if law == "baseline" else "",
               f"balanced scene, law {law}")
-    panels[0].plot([], [], color="#888888", marker="x", linewidth=1, label="the report's figure 5")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.91, 0.5), frameon=False,
-                  fontsize=9)
+    legend_beside(figure, panels[0], "the report's figure 5")
     save(figure, folder / "figure5.png")
 
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include <quadrille/simulation.hpp>
 
@@ -33,6 +34,11 @@ inline std::ostream& operator<<(std::ostream& out, const CellsCase& c) { return 
 inline std::ostream& operator<<(std::ostream& out, const SceneCase& c) {
     return out << c.scene << ", " << c.steps << " steps";
 }
+
+/// Shipped scenes in which the discrete laws have contacts soon.
+inline const std::vector<SceneCase> scenesOfDiscreteLaws = {
+    {"balanced", 3000, 40, 0.5}, {"imbalanced", 200, 20}, {"demo13k", 2000, 30, 0.1},
+    {"mixed-sizes", 600, 30},    {"pile", 300, 60},       {"cradle", {}, 100}};
 
 /// Runs a shipped scene with its step settings, as expectLockstep() does, and expects contacts.
 inline void expectSceneInLockstep(const SceneCase& c, SimulationConfig config) {

@@ -54,12 +54,7 @@ std::string nameOf(const testing::TestParamInfo<ShippedScenesOnDevice::ParamType
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScenesOnDevice,
-                         testing::Combine(testing::Values(SceneCase{"balanced", 3000, 40, 0.5},
-                                                          SceneCase{"imbalanced", 200, 20},
-                                                          SceneCase{"demo13k", 2000, 30, 0.1},
-                                                          SceneCase{"mixed-sizes", 600, 30},
-                                                          SceneCase{"pile", 300, 60},
-                                                          SceneCase{"cradle", {}, 100}),
+                         testing::Combine(testing::ValuesIn(scenesOfDiscreteLaws),
                                           testing::ValuesIn(partitioners),
                                           testing::Values(Law::Impulse, Law::Baseline),
                                           testing::Values(Precision::Double, Precision::Float)),
