@@ -411,6 +411,10 @@ void interpret(Options& options, const RawOptions& raw) {
             throw UsageError(std::string(option) + ": there is nothing to see with --headless");
         }
     }
+    if (options.window.offscreen && options.window.paused && !options.window.video.empty()) {
+        throw UsageError(
+            "--video: nothing would move, as nobody can end --paused with --offscreen");
+    }
     int onStdout = 0;
     for (const std::string* file :
          {&options.json, &options.csv, &options.dumpState, &options.dumpEvents}) {

@@ -1,5 +1,6 @@
 #include "system/program_pipe.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <string>
@@ -72,7 +73,10 @@ fs::path findProgram(const std::string& name) {
         const std::size_t end = std::min(folders.find(':', begin), folders.size());
         fs::path file = fs::path(folders.substr(begin, end - begin)) / name;
         std::error_code error;
-        if (fs::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0) return file;
+        // Nothing is run from the current folder.
+        if (file.is_absolute() && fs::is_regular_file(file, error) &&
+            access(file.c_str(), X_OK) == 0)
+            return file;
         begin = end + 1;
     }
     return {};

@@ -68,6 +68,18 @@ TEST_F(Offscreen, TakesAStepInEveryPictureUnlessAskedForASpeed) {
     EXPECT_EQ(readPng(path("a.png")).height, 200);
 }
 
+/// The panels leave no room for two views and plots.
+TEST_F(Offscreen, DrawsAComparisonInAWindowThatIsTooNarrow) {
+    for (const char* size : {"300,300", "250,200", "64,64"}) {
+        SCOPED_TRACE(size);
+        startOffscreen({"--scene", "cradle", "--compare", "impulse,continuous", "--frames", "4",
+                        "--size", size, "--screenshot", file("a.png")});
+        const ProcessResult result = program_->finish();
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_GT(readPng(path("a.png")).width, 0);
+    }
+}
+
 /// A driver that is never told that a picture is done kept some 800 kB of each.
 TEST_F(Offscreen, KeepsNothingOfThePicturesBefore) {
     if (sanitized) GTEST_SKIP() << "the sanitizer keeps memory that was freed";

@@ -1,9 +1,11 @@
 // The timeline: the past of a run is looked at, and the run is none the worse for it.
 
 #include <algorithm>
+#include <chrono>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "scenes.hpp"
@@ -124,6 +126,14 @@ TEST_F(WindowPast, TrailsShowWhereTheSelectedBodyWas) {
     EXPECT_TRUE(eventually([&] { return trailAt(3) && !trailAt(-10); }));
     screen_->press("w");
     EXPECT_TRUE(eventually([&] { return !trailAt(3); }));
+    close();
+}
+
+TEST_F(WindowPast, AtItsStartARunDoesNotGoBackwards) {
+    startAt(0);
+    screen_->press("b");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_TRUE(titleHas("step 0, paused"));
     close();
 }
 

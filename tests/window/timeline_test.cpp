@@ -114,6 +114,53 @@ TEST(Timeline, ALawThatWasChangedIsChangedInThePastToo) {
     }
 }
 
+TEST(Timeline, MemoryIsBoundedHoweverOftenARunIsChanged) {
+    Simulation run = crowd({.law = Law::Continuous});
+    const std::size_t memory = 40 * run.world().bytes();
+    Timeline timeline(memory);
+    timeline.begin(run);
+    auto hashes = runOn(run, timeline, 20);
+    for (int i = 0; i < 100; ++i) {
+        SimulationConfig config = run.config();
+        config.step.restitution = 1 - 1e-4 * i;
+        run.reconfigure(config);
+        timeline.change();
+        const auto more = runOn(run, timeline, 1);
+        hashes.push_back(more.back());
+        ASSERT_LE(timeline.bytes(), memory + 8 * hashes.size());
+    }
+    EXPECT_GT(timeline.first(), 0u);
+    EXPECT_LT(timeline.first(), 115u);
+    // Where nothing is changed any more, states are kept as before.
+    const auto more = runOn(run, timeline, 60);
+    hashes.insert(hashes.end(), more.begin() + 1, more.end());
+    for (std::uint64_t step = 180; step > timeline.first(); --step) {
+        expectPast(timeline, hashes, step);
+    }
+}
+
+TEST(Timeline, StepsThatCannotBeMadeAgainHaveNoGapsAfterAnotherLaw) {
+    // Which pairs are missed depends on how long ago the tree was built.
+    Simulation run =
+        crowd({.partitioner = SemiStaticQuadtree{10, 1, SemiStaticQuadtree::EveryFrames{9}},
+               .law = Law::Impulse},
+              "imbalanced", 400);
+    Timeline timeline(40 * run.world().bytes());
+    timeline.begin(run);
+    auto hashes = runOn(run, timeline, 15);
+    SimulationConfig config = run.config();
+    config.partitioner = Quadtree{};
+    run.reconfigure(config);
+    timeline.change();
+    for (int i = 0; i < 12; ++i) {
+        const auto more = runOn(run, timeline, 10);
+        hashes.insert(hashes.end(), more.begin() + 1, more.end());
+        for (std::uint64_t step = timeline.last(); step > timeline.first(); --step) {
+            expectPast(timeline, hashes, step);
+        }
+    }
+}
+
 TEST(Timeline, ThePastHasContacts) {
     Simulation run =
         crowd({.law = Law::Continuous, .keepContacts = true}, "imbalanced-clear", 1000);

@@ -130,6 +130,23 @@ TEST_F(Video, AnFfmpegThatFailsIsAnErrorAndLeavesTheOldFile) {
     }
 }
 
+TEST_F(Video, WhatElseTheRunIsAskedForOutlivesAFilmThatFails) {
+    const std::string folders = pretendFfmpeg("/bin/cat >/dev/null; exit 3\n");
+    const ProcessResult result = film({"--scene", "cradle", "--frames", "20", "--video",
+                                       file("a.mp4"), "--save", file("a.snapshot")},
+                                      folders);
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(contains(result.err, "ffmpeg could not write it")) << result.err;
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.snapshot", "programs"}));
+}
+
+TEST_F(Video, OfARunThatStandsStillIsNone) {
+    write("a.y4m", "an old film");
+    expectRefusal({"--offscreen", "--paused", "--frames", "3", "--video", file("a.y4m")}, 2,
+                  {"--video", "--paused"});
+    EXPECT_EQ(contentOf(path("a.y4m")), "an old film");
+}
+
 TEST_F(Video, SaysHowFarItIs) {
     const ProcessResult result = film({"--scene", "cradle", "--frames", "300", "--video",
                                        file("a.y4m"), "--report-every", "0.05"},

@@ -127,7 +127,9 @@ std::span<const Color> BodyColors::update(const Simulation& simulation, ColorBy 
                 });
             case ColorBy::SinceHit:
                 return colorByScale(bodies, sinceHitColor, [&](std::size_t i) {
-                    return std::max(now - hits.last(m.entity[i]), 0.0);
+                    // Of the past, what was hit later is not known to have been hit before.
+                    const double since = now - hits.last(m.entity[i]);
+                    return since >= 0 ? since : -HitTimes::never;
                 });
             default:
                 return colorByCell(simulation.cells(), bodies.fixed.size(), colors_);

@@ -72,7 +72,7 @@ void drawPlot(ImDrawList& list, const Plot& plot, const ScreenRect& rect, double
     list.AddText({from.x, to.y + 1}, packed(theme.faintText), "0");
     list.AddText({to.x - ImGui::CalcTextSize(endText.c_str()).x, to.y + 1}, packed(theme.faintText),
                  endText.c_str());
-    if (points.size() < 2 || to.y <= from.y) return;
+    if (points.size() < 2 || to.y <= from.y || to.x <= from.x) return;
     // A line along the edge is whole.
     const auto thickness = float(1.5 * scale);
     list.PushClipRect({from.x, from.y - thickness}, {to.x, to.y + thickness}, true);

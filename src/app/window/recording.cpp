@@ -4,6 +4,8 @@
 #include <iostream>
 #include <system_error>
 
+#include <quadrille/error.hpp>
+
 #include "app/window/text.hpp"
 
 namespace quadrille::app {
@@ -47,8 +49,11 @@ void Recording::add(const RunSession& session, const SdlWindow::Size& size) {
 }
 
 void Recording::commit() {
-    film_.commit();
     line_.wipe();
+    if (film_.pictures() == 0) {
+        throw Error(options_.window.video + ": no picture was taken, since the run stood still");
+    }
+    film_.commit();
     std::error_code error;
     const auto bytes = std::filesystem::file_size(options_.window.video, error);
     std::cerr << options_.window.video << ": " << grouped(std::uint64_t(film_.pictures()))

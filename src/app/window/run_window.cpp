@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <epoxy/gl.h>
+#include <exception>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ class WindowRun {
     void prepare(const Viewport& viewport);
     void draw(const Viewport& viewport) const;
     void takeScreenshots(bool last);
+    template <class Write>
+    void tryToWrite(Write&& write);
     void finishPhase(ShowPhase phase);
     void countPicture();
     void recordPhases(double pictureSeconds);
@@ -84,6 +87,7 @@ class WindowRun {
     BodyColors colors_;
     std::optional<ComparisonLayer> comparison_;
     std::optional<Recording> film_;
+    std::exception_ptr failure_;  // of writing pictures
     Input input_;
     std::vector<SDL_Event> events_;  // of this picture
     Measures measures_;
@@ -147,11 +151,27 @@ int WindowRun::loop() {
         const bool last =
             view_.quit || interruptedBy() != 0 || session.allFramesDone() || session.timeIsUp();
         showPicture(last);
-        if (last) break;
-        if (!film_) wait();
+        if (last || failure_) break;
+        if (!film_ || bench_.paused()) wait();
     }
-    if (film_) film_->commit();
-    return bench_.session().finish();
+    tryToWrite([&] {
+        if (film_) film_->commit();
+    });
+    const int code = bench_.session().finish();
+    if (failure_) std::rethrow_exception(failure_);
+    return code;
+}
+
+/// What cannot be written of the pictures ends the run, whose other outputs are written all the
+/// same.
+template <class Write>
+void WindowRun::tryToWrite(Write&& write) {
+    if (failure_) return;
+    try {
+        write();
+    } catch (const Error&) {
+        failure_ = std::current_exception();
+    }
 }
 
 void WindowRun::wait() {
@@ -260,8 +280,10 @@ void WindowRun::showPicture(bool last) {
     glViewport(0, 0, size_.pixelWidth, size_.pixelHeight);
     gui_.draw();
     finishPhase(ShowPhase::Gui);
-    takeScreenshots(last);
-    if (film_ && !bench_.paused()) film_->add(bench_.session(), size_);
+    tryToWrite([&] {
+        takeScreenshots(last);
+        if (film_ && !bench_.paused()) film_->add(bench_.session(), size_);
+    });
     updateTitle();
     phaseStart_ = Clock::now();
     window_.present();

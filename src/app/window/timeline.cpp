@@ -72,20 +72,21 @@ void Timeline::keep() {
 /// Half of the memory is for the states nearby.
 void Timeline::makeRoom() {
     const std::size_t most = std::max<std::size_t>(memory_ / 2 / stateBytes_, 2);
-    if (kept_.size() <= most) return;
-    if (!parts_.back().repeats()) {
+    const auto isNeeded = [&](const auto& state) {
+        const Part& part = parts_[partOf(state.first)];
         // What comes after a gap could not be made again.
-        kept_.erase(kept_.begin());
-        return;
-    }
+        return part.from == state.first || !part.repeats();
+    };
     while (kept_.size() > most) {
+        const auto needed = std::count_if(kept_.begin(), kept_.end(), isNeeded);
+        if (2 * std::size_t(needed) > kept_.size()) {
+            kept_.erase(kept_.begin());
+            continue;
+        }
         stride_ *= 2;
-        const std::size_t before = kept_.size();
         std::erase_if(kept_, [&](const auto& state) {
-            const bool begins = parts_[partOf(state.first)].from == state.first;
-            return !begins && (state.first - firstHash_) % stride_ != 0;
+            return !isNeeded(state) && (state.first - firstHash_) % stride_ != 0;
         });
-        if (kept_.size() == before && stride_ > last()) break;  // there are as many parts
     }
 }
 

@@ -73,7 +73,7 @@ class Timeline {
     std::size_t stateBytes_ = 1;
     std::uint64_t stride_ = 1;           // steps from one kept state to the next
     States kept_;                        // of the run, from its first step on
-    std::vector<Part> parts_;            // the state at the start of each stays
+    std::vector<Part> parts_;            // states at the start of each stay as long as others
     std::vector<std::uint64_t> hashes_;  // of all steps, from firstHash_ on
     std::uint64_t firstHash_ = 0;
 

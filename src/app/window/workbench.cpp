@@ -178,7 +178,7 @@ void Workbench::stepBack() {
 }
 
 void Workbench::playBackwards() {
-    if (!timeline_) return;
+    if (!timeline_ || (!backwards_ && place() <= double(firstPlace()))) return;
     backwards_ = !backwards_;
     paused_ = false;
     if (backwards_ && !lookingBack_) lookAt(std::nextafter(place(), 0));
@@ -446,7 +446,8 @@ void Workbench::watchTrails(bool wanted) {
 }
 
 void Workbench::recordTrails() {
-    if (watchingTrails_) trails_.record(shown_->world(), shown_->stepsDone());
+    if (watchingTrails_ && session_->beside() == nullptr)
+        trails_.record(shown_->world(), shown_->stepsDone());
 }
 
 void Workbench::sayFallback() {
