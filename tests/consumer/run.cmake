@@ -29,6 +29,8 @@ function(run)
   endif()
 endfunction()
 
+include(${CMAKE_CURRENT_LIST_DIR}/../install_manifest.cmake)
+set_manifests_aside()
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} ${config})
 set(options -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
     -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_PREFIX_PATH=${prefix} -DEigen3_DIR=${EIGEN3_DIR})
@@ -56,3 +58,4 @@ endif()
 if(EXISTS ${prefix}/include/quadrille)
   message(FATAL_ERROR "uninstalling left include/quadrille")
 endif()
+put_manifests_back()
